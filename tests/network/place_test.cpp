@@ -51,7 +51,7 @@ class Place : public FleetTest {
     std::filesystem::permissions(file.parent_path(), std::filesystem::perms(0755));
     return file;
   }
-  /// The command that runs `skein` on a host as an ordinary user, whichever user logs in.
+  /// A script that runs `skein` on a host as an ordinary user, whichever user logs in.
   std::string write_unprivileged_skein() const {
     return write_skein("nobody", "exec setpriv --reuid=nobody --regid=nogroup --clear-groups");
   }

@@ -16,7 +16,7 @@ export async function waitUntil(ask, holds, what) {
     try {
       return await ask();
     } catch {
-      return null;  // for example because the page reloads
+      return null;  // the page cannot answer now, for example because it reloads
     }
   };
   for (let told = Date.now();;) {
@@ -56,7 +56,7 @@ export async function openBrowser(web, executablePath) {
 }
 
 /**
- * Ends the browser and all its processes. A busy Chromium may not answer the request to close, so it is not asked.
+ * Ends the browser and all its processes by a signal, because a busy Chromium may not answer a request to close.
  * @returns once its main process has ended.
  */
 export async function endBrowser(browser) {
@@ -66,7 +66,7 @@ export async function endBrowser(browser) {
   await ended;
 }
 
-/** Opens a file. @returns the page, and its complaints (the list grows): errors, and requests for anything else. */
+/** Opens a file. @returns the page, and its complaints (the list grows): errors, and requests for other resources. */
 export async function openPage(browser, file, {width, scheme}) {
   const page = await openTab(browser);
   const complaints = [];
@@ -83,7 +83,7 @@ export async function openPage(browser, file, {width, scheme}) {
   return {page, complaints};
 }
 
-let table = null;  // the page in which pictures are evaluated
+let table = null;  // a page of its own, in which pictures are evaluated
 
 /**
  * Evaluates parts of a picture (base64 PNG): number of colours, share of the most frequent one, brightness (0 to 1).

@@ -15,7 +15,7 @@ class ReportInABrowser : public FleetTest {
  protected:
   void SetUp() override {
     for (const char* name : {"node", "chromium"}) {
-      if (command_file(name).empty()) GTEST_SKIP() << "there is no " << name;
+      if (command_file(name).empty()) GTEST_SKIP() << name << " is not installed";
     }
     if (!fs::exists(kWeb / "node_modules" / "puppeteer-core") || !fs::exists(kBundle)) {
       GTEST_SKIP() << "web/ is not built: ./skein test does that, or `npm ci && npm run build` there";
@@ -31,12 +31,12 @@ class ReportInABrowser : public FleetTest {
   }
 };
 
-TEST_F(ReportInABrowser, OfAWholeRun) {
+TEST_F(ReportInABrowser, OfACompleteRunAgreesWithItsTables) {
   run("usual", {"towers", "--one-process", "--planner", "kios", "--duration", "60"});
   look("usual");
 }
 
-TEST_F(ReportInABrowser, OfARunWithFaults) {
+TEST_F(ReportInABrowser, OfARunWithFaultsAgreesWithItsTables) {
   run("faulty",
       {"towers", "--one-process", "--planner", "patrol", "--duration", "40", "--seed", "3", "--no-oracle", "--faults",
        write("faults.yaml",
@@ -44,7 +44,7 @@ TEST_F(ReportInABrowser, OfARunWithFaults) {
   look("faulty");
 }
 
-TEST_F(ReportInABrowser, OfRunsThatCameToNothing) {
+TEST_F(ReportInABrowser, OfARunWithoutScoreAgreesWithItsTables) {
   run("short", {"towers", "--one-process", "--planner", "hover", "--stop-at", "1"});
   look("short");
 }

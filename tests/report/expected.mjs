@@ -224,7 +224,7 @@ function timeUse({result, events, activity}) {
   });
 }
 
-/** @returns lost score and number of the points that were never in a picture: far from all UAVs, and near one. */
+/** @returns lost score and number of the points that no picture shows: of those far from all UAVs, and near one. */
 function unseen({scene, losses: lost, trajectories}) {
   const points = (lost ?? []).filter((row) => row.cause === 'never_in_picture');
   if (points.length === 0 || !scene.cameras?.length) return null;
@@ -241,7 +241,7 @@ function unseen({scene, losses: lost, trajectories}) {
   return rows;
 }
 
-/** @returns lost score and number of the points too poor to count, by the worst part of their best picture. */
+/** @returns lost score and number of the points without a good enough picture, by the worst part of their best one. */
 function poor({losses: lost}) {
   const points = (lost ?? []).filter((row) => row.cause === 'below_threshold');
   const rows = ['distance', 'tilt', 'blur', 'unsplit']

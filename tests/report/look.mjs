@@ -21,7 +21,7 @@ function compareRow(table, row, cells, expected) {
       return value === null && (expected[i] ?? null) === null;
     return Math.abs(value[0] - expected[i]) <= 0.5 * 10 ** -value[1] + 1e-6 * Math.max(1, Math.abs(expected[i]));
   });
-  expect(same, `table ${table}, row ${row}: ${cells.join(' | ')}, and it should be ${expected.join(' | ')}`);
+  expect(same, `table ${table}, row ${row}: ${cells.join(' | ')}, but should be ${expected.join(' | ')}`);
 }
 
 /** Checks every number of every table, and the facts at the top of the page. */
@@ -37,7 +37,7 @@ async function checkNumbers(page, run) {
   const shown = new Map(tables);
   for (const [name, rows] of Object.entries(expectedTables(run))) {
     if (rows === null || !shown.has(name)) {
-      expect(rows === null && !shown.has(name), `table ${name} is ${rows === null ? 'there' : 'not there'}`);
+      expect(rows === null && !shown.has(name), `table ${name} is ${rows === null ? 'shown without rows' : 'missing'}`);
       continue;
     }
     expect(
@@ -48,7 +48,7 @@ async function checkNumbers(page, run) {
   expect(Math.abs(Number(score) - run.result.score) <= 0.05 + 1e-9, `the score is ${score}, not ${run.result.score}`);
   const text = await page.$eval('header', (element) => element.textContent);
   for (const fact of [run.result.digest ?? 'none', run.result.command, run.result.scenario, run.result.rules]) {
-    expect(text.includes(fact), `the head does not say ${fact}`);
+    expect(text.includes(fact), `the head of the page does not contain "${fact}"`);
   }
 }
 
@@ -80,7 +80,7 @@ async function checkFigures(page) {
  * effects.
  */
 async function checkLive(page, run) {
-  expect(await page.$('body[data-live="yes"]'), 'the script did not come to its end');
+  expect(await page.$('body[data-live="yes"]'), 'the script has not finished');
   expect((await page.$$('.live-chart canvas')).length === 2, 'there are not two live charts');
   const stage = await page.$('.scene .stage');
   if (stage === null) return complain('there is no 3D view');
@@ -104,17 +104,19 @@ async function checkLive(page, run) {
   await page.select('#follow', '0');
   const followed = await look();
   expect(followed !== outside, 'the view does not follow a UAV');
-  expect(await page.$eval('#through', (box) => box.disabled) === !run.scene.cameras, 'cameras are offered that are not known, or known ones are not');
+  expect(await page.$eval('#through', (box) => box.disabled) === !run.scene.cameras,
+      'the choice of a camera\'s view is not enabled exactly if the result has cameras');
   if (run.scene.cameras) {
     await page.click('#through');
     expect((await look()) !== followed, 'the view is not that of the camera');
     await page.click('#through');
   }
   for (const box of await page.$$('.scene .tools input[type="checkbox"]')) await box.click();
-  expect((await lookAt(browser, await look())).colours < (await lookAt(browser, half)).colours, 'the layers do not go');
+  expect((await lookAt(browser, await look())).colours < (await lookAt(browser, half)).colours,
+      'hidden layers are still drawn');
 }
 
-/** Checks that a table which is wider than the page shows at its right edge that it goes on, up to its end. */
+/** Checks that a table that is wider than the page shades its right edge until it is scrolled to its end. */
 async function checkEdge(page) {
   const wide = await page.$('.wide:has(table[data-table="uavs"])');
   if (wide === null) return;
@@ -128,8 +130,8 @@ async function checkEdge(page) {
     return (await lookAt(browser, png, [[Math.floor(width) - 6, 0, 6, Math.floor(height)]]))[0].largest;
   };
   const [begin, end] = [await edgeAt(0), await edgeAt(most)];
-  expect(begin < 0.4, `nothing says that the table of UAVs goes on (${begin})`);
-  expect(end > 0.5, `the table of UAVs seems to go on after its end (${end})`);
+  expect(begin < 0.4, `the right edge of the table of UAVs does not show that the table continues (${begin})`);
+  expect(end > 0.5, `the right edge of the table of UAVs is still shaded at its end (${end})`);
   await wide.evaluate((box) => box.scrollTo({left: 0, behavior: 'instant'}));
 }
 
@@ -138,7 +140,7 @@ async function checkPage(folder, run, live, width, scheme, thorough) {
   where = `${path.basename(folder)}, ${live ? 'live' : 'static'}, ${width} px, ${scheme}`;
   const {page, complaints} = await openPage(browser, path.join(folder, 'report.html'), {width, scheme});
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-  expect(wide <= 0, `it is ${wide} px too wide`);
+  expect(wide <= 0, `the page is ${wide} px too wide`);
   expect(Boolean(await page.$('#static')) !== live, 'the footer does not say how to get the interactive page');
   await checkPixels(page, scheme);
   await checkNumbers(page, run);
@@ -151,7 +153,7 @@ async function checkPage(folder, run, live, width, scheme, thorough) {
 
 for (const folder of folders) {
   const run = readRun(folder);
-  const all = folder === folders[0];  // of the other folders, only the two extreme cases
+  const all = folder === folders[0];  // the first folder is checked in all cases, others only in the two extreme ones
   for (const live of [false, true]) {
     execFileSync(skein, ['report', folder], {env: {...process.env, SKEIN_WEB: live ? bundle : 'none'}});
     for (const width of [400, 900, 1600]) {

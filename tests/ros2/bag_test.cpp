@@ -92,7 +92,7 @@ TEST_P(Bag, IsPlayedIntoRclcppAsItWasRecorded) {
   const std::string dump = folder() / "dump", stay = folder() / "stay", heard = folder() / "listener.heard";
   ASSERT_EQ(std::system((command + " >" + dump).c_str()), 0);
 
-  // Another domain than that of the flight, which another fleet may use by now, with its own /tf.
+  // Not in the domain of the flight, because another fleet may use it by now and publish its own /tf there.
   const FreeDomains domains(1);
   const int domain = domains.base();
   ChildProcess& listener = start_listener(domain, "listener");
@@ -100,7 +100,7 @@ TEST_P(Bag, IsPlayedIntoRclcppAsItWasRecorded) {
       GetParam(), domain, "python3 " + source_path("tests/ros2/bag/play.py ") + dump + " " + stay + " " + heard);
   const auto exists = [](const std::string& file) { return [file] { return std::filesystem::exists(file); }; };
   ASSERT_TRUE(eventually(exists(stay + ".played"))) << player.err() << listener.err();
-  // A listener that starts late receives the latched topics.
+  // A listener that starts after the player still receives the latched topics.
   ChildProcess& late = start_listener(domain, "late");
   const auto has_latched = [&] { return heard_by("late").size() == std::size(kLatched); };
   EXPECT_TRUE(eventually(has_latched)) << late.err();

@@ -21,7 +21,7 @@ TEST(RosNodeAtTheEndOfTheRun, KeepsTheExitCodeOfItsMainFunction) {
   for (const int code : {0, 1, 2, 77}) EXPECT_EXIT(return_from_main(code), testing::ExitedWithCode(code), "");
 }
 
-TEST(RosNodeAtTheEndOfTheRun, KeepsItInASecuredFleetToo) {
+TEST(RosNodeAtTheEndOfTheRun, KeepsItsExitCodeInASecuredFleet) {
   for (const int code : {0, 1, 2}) {
     const auto end = [&] {
       ::setenv("ROS_SECURITY_ENABLE", "true", 1);  // in the process of this node only

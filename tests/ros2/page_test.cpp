@@ -18,7 +18,8 @@ namespace skein::test {
 namespace {
 
 constexpr const char* kTyped = "needs ROS 2; tests/ros2 types it";
-constexpr const char* kReadersRos = "source /opt/ros/humble/setup.bash\n";  // left out: these shells have another ROS 2
+constexpr const char* kReadersRos =
+    "source /opt/ros/humble/setup.bash\n";  // not executed, because these shells have set up another ROS 2
 const std::regex kBackground(R"((\./skein .*) &)");
 
 /// A page, and the least number of its blocks that must be executed.
@@ -30,7 +31,7 @@ class RosPageTyped : public WorkspaceTest, public testing::WithParamInterface<Pa
     WorkspaceTest::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
     const auto is_ours = [&] { return (lock_ = HostLock::try_take("skein " + workspace())).has_value(); };
-    ASSERT_TRUE(eventually(is_ours, std::chrono::minutes(15))) << "another test reads pages in " << workspace();
+    ASSERT_TRUE(eventually(is_ours, std::chrono::minutes(15))) << "another test still follows pages in " << workspace();
     const std::set<std::filesystem::path> colcons = {"ros2", "build", "install", "log", "built"};
     for (const auto& entry : std::filesystem::directory_iterator(checkout())) {  // files of an earlier test
       if (!colcons.contains(entry.path().filename())) std::filesystem::remove_all(entry);
@@ -103,7 +104,7 @@ TEST_P(RosPageTyped, IsFollowed) {
     }
     if (fleet != nullptr) typed = with_domains_of(*fleet, typed);
     ChildProcess& reader = shell(typed);
-    // The page's reader ends the node; the test ends it when the fleet has received its commands.
+    // Readers of the page end the node themselves; the test ends it when the fleet has received its commands.
     if (typed.find("climber.py") != std::string::npos) {
       const auto flies = [&] {
         for (const auto& row : read_csv(checkout() / "runs/nodes/trajectories.csv", LastLine::may_be_unfinished)) {

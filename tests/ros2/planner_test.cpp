@@ -24,7 +24,7 @@ constexpr const char* kMiddlewares[] = {"cyclonedds", "fastrtps"};
 
 class RosPlanner : public WorkspaceTest {};
 
-TEST_F(RosPlanner, FliesAndScoresAlikeOverMiddlewaresAndVendors) {
+TEST_F(RosPlanner, FliesTheSameOverAllMiddlewaresAndVendors) {
   const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "60"};
   std::set<std::string> digests;
   for (const auto* middleware : kMiddlewares) {
@@ -37,7 +37,7 @@ TEST_F(RosPlanner, FliesAndScoresAlikeOverMiddlewaresAndVendors) {
     EXPECT_EQ(result["status"], "completed");
     EXPECT_TRUE(result["deterministic"]) << done.err();
     EXPECT_EQ(result["uavs"][0]["commands_rejected"], 0);
-    EXPECT_GT(result["score_by_uav"]["jurong"], 1.0) << "its captures reached the station";
+    EXPECT_GT(result["score_by_uav"]["jurong"], 1.0) << "captures of the node's UAV did not reach the station";
     digests.insert(done.digest());
     EXPECT_NE(text_of(done.dir() / "activity.csv").find(",jurong,circles,"), std::string::npos);
   }
@@ -53,9 +53,11 @@ TEST_F(RosPlanner, InPythonFliesBesideANodeThatKnowsNothingOfSkein) {
     SkeinRun& done = run_with(middleware, middleware, flight);
     const Json result = done.result();
     EXPECT_TRUE(result["deterministic"]) << done.err();
-    EXPECT_NEAR(result["uavs"][0]["distance_m"].get<double>(), 6.0, 1.0) << "to its height";
-    EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 4.0, 0.7) << "its wall timer and its parameter";
-    EXPECT_GT(result["radio"]["sent"], 300) << "what it said in each step";
+    EXPECT_NEAR(result["uavs"][0]["distance_m"].get<double>(), 6.0, 1.0)
+        << "the node did not fly its UAV to its height and stop there";
+    EXPECT_NEAR(result["uavs"][2]["distance_m"].get<double>(), 4.0, 0.7)
+        << "the wall timer or the parameter of the node does not work";
+    EXPECT_GT(result["radio"]["sent"], 300) << "the node must send a radio message in each step";
     digests.insert(done.digest());
   }
   EXPECT_EQ(digests.size(), 1U);
@@ -104,8 +106,8 @@ TEST_F(RosPlanner, ThatJoinsLateFlies) {
   EXPECT_EQ(digests.size(), 1U);
 }
 
-// Killed from outside, and restarted by hand with the command and the environment from the launcher.
-TEST_F(RosPlanner, ThatIsKilledAndStartedAgainFliesOn) {
+// The node is killed from outside, and restarted by hand with the command and the environment from the launcher.
+TEST_F(RosPlanner, ThatIsKilledAndStartedAgainByHandFliesOn) {
   for (const auto* middleware : kMiddlewares) {
     SkeinRun& fleet = start_with(middleware, middleware,
                                  {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--clock",
@@ -140,11 +142,11 @@ TEST_F(RosPlanner, ThatIsKilledAndStartedAgainFliesOn) {
       const bool since = std::stod(row.at("time_s")) > lost[0]["back_at_s"].get<double>() + 2.0;
       if (since && row.at("uav") == "jurong") places.insert(static_cast<int>(std::stod(row.at("x"))));
     }
-    EXPECT_GT(places.size(), 3U) << "it flies on";
+    EXPECT_GT(places.size(), 3U) << "the UAV does not fly on its circle after the restart";
   }
 }
 
-// With its UAV's certificate, and the fleet's own vendor as middleware; another vendor is refused before the start.
+// The node uses its UAV's certificate and the fleet's vendor as middleware. Another vendor is refused before the start.
 TEST_F(RosPlanner, FliesInASecuredFleetOfItsVendor) {
   const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "10"};
   std::set<std::string> digests = {run_with("cyclonedds", "open", flight).digest()};
@@ -162,7 +164,7 @@ TEST_F(RosPlanner, FliesInASecuredFleetOfItsVendor) {
 }
 
 // The fleet waits for a slow node, and the result is the same.
-TEST_F(RosPlanner, ThatHesitatesChangesNothing) {
+TEST_F(RosPlanner, ThatIsSlowDoesNotChangeTheFlight) {
   std::set<std::string> digests;
   for (const char* what : {"nothing", "hesitate"}) {
     const std::string node = "exec:python3 " + source_path("tests/ros2/odd_node.py") + " " + what;
@@ -201,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Oddities, OddRosPlanner,
                                          Oddity{"stall", "did not answer"}),
                          [](const auto& oddity) { return oddity.param.what; });
 
-TEST_F(RosPlanner, ThatIsNotThereIsNamedBeforeAnythingStarts) {
+TEST_F(RosPlanner, ThatDoesNotExistIsNamedBeforeAnythingStarts) {
   const auto expect_error = [&](const std::string& planner, const std::string& word) {
     SkeinRun& refused = run_with("cyclonedds", "refused", {"towers", "--planner", planner, "--force"}, 2);
     EXPECT_NE(refused.err().find(word), std::string::npos) << refused.err();
@@ -279,14 +281,14 @@ TEST_P(RosMessages, AreTheSameBytesForRosAndForSkein) {
   script("read", ours);
   for (const auto& [type, unused] : types) {
     const bool ours_alone = type.starts_with("skein_msgs::");
-    EXPECT_TRUE(!ours_alone || seen.contains(type)) << type << " is not in the package";
+    EXPECT_TRUE(!ours_alone || seen.contains(type)) << type << " was not compared";
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Middlewares, RosMessages, testing::ValuesIn(kMiddlewares),
                          [](const auto& middleware) { return std::string(middleware.param); });
 
-TEST(RosPage, HasThePlannersThatFly) {
+TEST(RosPage, ShowsThePlannersOfTheExamples) {
   const std::string page = text_of(source_path("docs/how-to-ros2.md"));
   for (const char* file : {"circle.cpp", "climb.py"}) {
     const std::string text = text_of(source_path("ros2/skein_ros_examples/src/") + file);
@@ -295,12 +297,12 @@ TEST(RosPage, HasThePlannersThatFly) {
   }
 }
 
-TEST(RosMessageFiles, AreAsTheIdlHasThem) {
+TEST(RosMessageFiles, HaveTheFieldsOfTheIdl) {
   EXPECT_EQ(std::system(("python3 " + source_path("ros2/generate_messages.py") + " --check").c_str()), 0);
 }
 
 // The package has its own table of topics, because it does not need Skein.
-TEST(RosTopics, AreThoseOfSkeinsTable) {
+TEST(RosTopics, AgreeWithSkeinsTable) {
   const auto way = [](const topics::TopicInfo& topic) {
     return topic.direction == topics::Direction::from_agent ? skein_ros::Way::from_node : skein_ros::Way::to_node;
   };

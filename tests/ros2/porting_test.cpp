@@ -41,7 +41,7 @@ TEST_F(Porting, CommandsOfThePageFly) {
   }
 }
 
-TEST_F(Porting, ThePortedBaselineScoresAndRepeats) {
+TEST_F(Porting, ThePortedBaselineScoresTheSameEachTime) {
   const Arguments flight = {"towers", "--planner", "ros:skein_ros_baseline/uav,gcs=ros:skein_ros_baseline/gcs",
                             "--duration", "60"};
   std::set<std::string> digests;
@@ -52,7 +52,7 @@ TEST_F(Porting, ThePortedBaselineScoresAndRepeats) {
     EXPECT_TRUE(result["deterministic"]) << done.err();
     EXPECT_TRUE(result["collisions"].empty()) << result["collisions"];
     EXPECT_GT(result["score"], 20.0);
-    EXPECT_EQ(result["score"], result["score_earned"]) << "all came home in time to deliver";
+    EXPECT_EQ(result["score"], result["score_earned"]) << "a UAV did not come back in time to deliver its captures";
     for (const Json& uav : result["uavs"]) EXPECT_EQ(uav["commands_rejected"], 0) << uav["name"];
     // The planner assigns regions to teams: explorers arrive first, and photographers have left their starts.
     for (const Json& uav : result["uavs"]) EXPECT_GT(uav["distance_m"], 10.0) << uav["name"];

@@ -70,7 +70,7 @@ class FreeNodes : public WorkspaceTest, public testing::WithParamInterface<std::
   }
 };
 
-TEST_P(FreeNodes, ThatComeLateDieAndComeBackFlyTheirUav) {
+TEST_P(FreeNodes, ThatStartLateOrRestartFlyTheirUav) {
   SkeinRun& fleet = start_fleet();
   start_free_node(fleet, "first", "cyclonedds", "3 60");
   const Json first = published("first");
@@ -89,15 +89,15 @@ TEST_P(FreeNodes, ThatComeLateDieAndComeBackFlyTheirUav) {
   EXPECT_EQ(counts["received"], counts["handed_on"]) << counts;
   EXPECT_EQ(counts["refused"], 0) << counts;
   EXPECT_EQ(counts["other_clock"], 0) << counts;
-  EXPECT_GT(result["uavs"][0]["distance_m"], 3.0 + 2.5) << "each flew it to its own goal";
+  EXPECT_GT(result["uavs"][0]["distance_m"], 3.0 + 2.5) << "not every node flew the UAV to its goal";
   EXPECT_EQ(result["uavs"][0]["commands_unheard"], 0);
   EXPECT_EQ(result["radio"]["unheard"], 0);
-  EXPECT_GE(result["radio"]["sent"].get<int>(), 10) << "what they said on /plan";
+  EXPECT_GE(result["radio"]["sent"].get<int>(), 10) << "messages of the nodes on /plan were not sent";
   EXPECT_FALSE(result["deterministic"]);
   EXPECT_NE(fleet.out().find(kTrajectory), std::string::npos) << fleet.out();
 }
 
-TEST_P(FreeNodes, ThatStallAreLateAndThenFlyOn) {
+TEST_P(FreeNodes, ThatStallSendLateCommandsAndThenFlyOn) {
   SkeinRun& fleet = start_fleet();
   start_free_node(fleet, "stalls", GetParam() == "fastdds" ? "cyclonedds" : "fastrtps", "4 80 stall");
   const Json said = published("stalls");
@@ -109,7 +109,7 @@ TEST_P(FreeNodes, ThatStallAreLateAndThenFlyOn) {
   EXPECT_GT(result["uavs"][0]["distance_m"], 3.0);
 }
 
-TEST_P(FreeNodes, AreToldWhatIsRejected) {
+TEST_P(FreeNodes, AreToldHowManyCommandsAreRejected) {
   SkeinRun& fleet = start_fleet();
   start_free_node(fleet, "rejected", "cyclonedds", "3 60 reject");
   const Json said = published("rejected");
@@ -121,7 +121,7 @@ TEST_P(FreeNodes, AreToldWhatIsRejected) {
 
 // The UAV's program is absent for a while, but the node continues: its messages during the absence have no effect and
 // are counted, and afterwards the node flies the UAV again.
-TEST_P(FreeNodes, SpeakInVainWhileAFaultStopsOrKillsTheirUavsProgram) {
+TEST_P(FreeNodes, HaveNoEffectWhileAFaultStopsOrKillsTheirUavsProgram) {
   for (const std::string kind : {"pause", "kill"}) {
     const auto faults =
         write(kind + ".yaml", "faults:\n  - {when: 'z(jurong) > 3 m', for_s: 4, " + kind + ": jurong}\n");
@@ -178,8 +178,8 @@ TEST_F(NoNodes, AreRefusedInTheLockStep) {
   EXPECT_NE(refused.err().find("--clock realtime"), std::string::npos) << refused.err();
 }
 
-// The environment that a user's shell evaluates, for the fleet that flies on this host.
-TEST_F(NoNodes, FindTheirDomainByTheLauncher) {
+// `skein run --ros-env` prints the environment of a UAV's node, for the fleet that flies on this host.
+TEST_F(NoNodes, GetTheirDomainFromTheLauncher) {
   SkeinRun& fleet = start("fleet", {"towers", "--clock", "realtime", "--duration", "3000", "--no-oracle"});
   ASSERT_TRUE(fleet.wait_until_flying()) << fleet.err();
   const auto printed = [&](const std::string& uav) -> ChildProcess& {

@@ -10,8 +10,8 @@
 
 namespace skein::test {
 
-/// Its fleets fly in DDS domains that belong to this test program: a node may outlive its fleet for a moment, and in a
-/// domain that any fleet may take it would meet the next one.
+/// Its fleets fly in DDS domains that belong to this test program. A node may outlive its fleet for a moment, so in
+/// other domains it could disturb the next fleet.
 class Ros2Test : public FleetTest {
  protected:
   SkeinRun& start(const std::string& name, const Arguments& arguments, const Environment& environment = {}) {

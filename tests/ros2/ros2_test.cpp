@@ -33,10 +33,11 @@ class Ros2 : public Ros2Test, public testing::WithParamInterface<std::string> {
     ASSERT_GT(odometry.size(), steps / 4);
     for (std::size_t i = 1; i < odometry.size(); ++i) {
       ASSERT_NEAR(odometry[i][0].get<double>() - odometry[i - 1][0].get<double>(), kExchange_s, 1e-6)
-          << "one is missing";
+          << "the listener missed a message";
     }
     const double first_s = odometry.front()[0], last_s = odometry.back()[0];
-    EXPECT_GT(last_s, (static_cast<double>(steps) - 20.0) * kExchange_s) << "but for what is under way at the end";
+    EXPECT_GT(last_s, (static_cast<double>(steps) - 20.0) * kExchange_s)
+        << "the listener missed more than the last messages of the flight";
     EXPECT_GT(heard["clocks"], steps / 4);
     EXPECT_GT(heard["clouds"].size(), odometry.size() / 4);
     std::size_t compared = 0;
@@ -66,7 +67,7 @@ class Ros2 : public Ros2Test, public testing::WithParamInterface<std::string> {
   }
 };
 
-TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndAreToldWhenTheyAreNotHeard) {
+TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndTheLauncherReportsIgnoredCommands) {
   SkeinRun& fleet = start("fleet", joined(kFlight, {"--dds", GetParam(), "--debug", kUav}));
   ASSERT_TRUE(fleet.wait_for("gdb --args")) << fleet.err();
   const int domain = fleet.domains().first + 2;
@@ -95,21 +96,22 @@ TEST_P(Ros2, NodesWithDefaultSettingsHearAUavAndAreToldWhenTheyAreNotHeard) {
   for (const std::string& name : listeners) expect_all_heard(fleet, name);
   const Json result = fleet.result();
   EXPECT_TRUE(result["deterministic"]);
-  EXPECT_EQ(fleet.digest(), run("alone", kFlight).digest()) << "listeners and strangers change nothing";
+  EXPECT_EQ(fleet.digest(), run("alone", kFlight).digest()) << "programs outside the fleet changed the run";
 
   EXPECT_GT(result["uavs"][0]["commands_unheard"], 0);
   EXPECT_EQ(result["uavs"][1]["commands_unheard"], 0);
   const std::string word =
       kUav + ": samples on /" + kUav + "/command/trajectory are ignored: the sender does not take part";
-  EXPECT_NE(fleet.err().find(word), std::string::npos) << "while it flies";
+  EXPECT_NE(fleet.err().find(word), std::string::npos) << "the launcher must print this during the flight";
   const auto told = [&](const std::string& text) {
     return std::count_if(result["warnings"].begin(), result["warnings"].end(),
                          [&](const Json& w) { return w.get<std::string>().find(text) != std::string::npos; });
   };
-  EXPECT_EQ(told(word), 1) << "once, however many there were";
+  EXPECT_EQ(told(word), 1) << "one warning for all ignored commands";
   EXPECT_GT(result["radio"]["unheard"], 0);
   EXPECT_EQ(told(kUav + ": samples on /plan are ignored: the sender does not take part"), 1);
-  EXPECT_NE(text_of(folder() / "rejections").find(" 1\n"), std::string::npos) << "command_rejected";
+  EXPECT_NE(text_of(folder() / "rejections").find(" 1\n"), std::string::npos)
+      << "the ignored commands were not reported on command_rejected";
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, Ros2, testing::Values("cyclonedds", "fastdds"),

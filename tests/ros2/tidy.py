@@ -1,4 +1,4 @@
-"""Removes the shared memory of a domain's ports, which Fast DDS leaves behind even when its node ends in good order."""
+"""Removes the shared memory of a domain's ports, which Fast DDS leaves behind even if its node ends normally."""
 import glob
 import os
 

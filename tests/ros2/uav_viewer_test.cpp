@@ -50,7 +50,7 @@ void expect_frames(const Json& seen) {
 }
 
 void expect_diagnostics(const Json& seen) {
-  ASSERT_GT(seen["diagnostics"].size(), 10U) << "once a second";
+  ASSERT_GT(seen["diagnostics"].size(), 10U) << "diagnostics must arrive once per second";
   double before_s = -1.0;
   bool linked = false;
   for (const Json& array : seen["diagnostics"]) {
@@ -58,20 +58,20 @@ void expect_diagnostics(const Json& seen) {
     EXPECT_GT(time_s, before_s + 0.99);
     before_s = time_s;
     const Json& parts = array[1];
-    ASSERT_GE(parts.size(), 4U) << "and the battery";
+    ASSERT_GE(parts.size(), 4U) << "the four parts, and the battery";
     EXPECT_EQ(parts[0][0], "jurong: radio");
     linked |= parts[0][2] == "linked to the station" && parts[0][1] == 0;
     EXPECT_EQ(std::stol(parts[3][3]["step"].get<std::string>()), std::lround(time_s * 20.0));
   }
   const Json &first = seen["diagnostics"].front()[1][2], &last = seen["diagnostics"].back()[1][2];
-  EXPECT_EQ(first[1], 1) << "on the ground nothing is proved to be free";
+  EXPECT_EQ(first[1], 1) << "on the ground, the UAV must report that no space is proved free";
   EXPECT_EQ(last[1], 0) << last;
   EXPECT_EQ(last[2], "within proved space");
-  EXPECT_TRUE(linked) << "the station is in sight of the start";
+  EXPECT_TRUE(linked) << "the UAV has never reported a link, although the station is in sight of its start";
 }
 
-TEST_P(UavViewer, SeesWhatItsUavIsToldAndNothingOfOthers) {
-  // With odometry errors: the true position must not be in its frames.
+TEST_P(UavViewer, SeesOnlyWhatItsUavReceivesAndPublishes) {
+  // The flight has odometry errors, to show that the frames do not contain the true position.
   const Arguments flight = {"towers", "--planner", "patrol",       "--stop-at", "30",
                             "--seed", "3",         "--conditions", "breezy"};
   SkeinRun& fleet = start("fleet", joined(flight, {"--dds", GetParam(), "--debug", "changi"}));
@@ -97,7 +97,7 @@ TEST_P(UavViewer, SeesWhatItsUavIsToldAndNothingOfOthers) {
     expect_frames(seen);
     expect_diagnostics(seen);
   }
-  EXPECT_EQ(fleet.digest(), run("alone", flight).digest()) << "a viewer has a say in the run";
+  EXPECT_EQ(fleet.digest(), run("alone", flight).digest()) << "a viewer changed the run";
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, UavViewer, testing::Values("cyclonedds", "fastdds"),

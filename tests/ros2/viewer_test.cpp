@@ -14,7 +14,7 @@ const Arguments kWatched = {"towers", "--planner", "patrol", "--stop-at", "40"};
 
 class Ros2Definitions : public Ros2Test {};
 
-TEST_F(Ros2Definitions, AreThoseOfOurIdl) {
+TEST_F(Ros2Definitions, AgreeWithSkeinsIdl) {
   ChildProcess& compare = start_node("compare", "cyclonedds", 1, "",
                                      "python3 " + source_path("tests/ros2/definitions.py") + " " + source_path("idl"));
   ASSERT_EQ(compare.wait().code, 0) << compare.err();
@@ -56,7 +56,8 @@ void Ros2Viewer::expect_all_seen(const SkeinRun& run, const std::string& viewer)
     EXPECT_EQ(marker["frame"], "world");
     EXPECT_GT(marker["alpha"], 0.0);
     EXPECT_TRUE(marker["colors"] == 0 || marker["colors"] == marker["points"]);
-    EXPECT_EQ(marker["rest"], Json({"", "", Json::array(), 0, "", "", Json::array(), false})) << "nothing is shifted";
+    EXPECT_EQ(marker["rest"], Json({"", "", Json::array(), 0, "", "", Json::array(), false}))
+        << "fields that Skein leaves empty are not empty in ROS 2";
   }
   EXPECT_EQ(kinds, (std::set<std::string>{"body", "boxes", "frustum", "links", "name", "path", "structure"}));
   ASSERT_FALSE(seen["clouds"].empty());
@@ -84,7 +85,7 @@ void Ros2Viewer::expect_all_seen(const SkeinRun& run, const std::string& viewer)
   EXPECT_GT(compared, 100U);
 }
 
-TEST_P(Ros2Viewer, SeesWhatRvizShows) {
+TEST_P(Ros2Viewer, ReceivesWhatRvizShows) {
   SkeinRun& fleet = start("fleet", joined(kWatched, {"--dds", GetParam(), "--debug", "changi"}));
   ASSERT_TRUE(fleet.wait_for("gdb --args")) << fleet.err();
   const int world = world_domain(fleet.domains().first);

@@ -153,7 +153,7 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
     ASSERT_EQ(beams.fired.size(), at_once ? 1U : 40U);
     for (std::size_t i = 0; i < beams.fired.size(); ++i) {
       const BeamScan::Firing& firing = beams.fired[i];
-      ASSERT_EQ(firing.first_column, 11 * static_cast<int>(i)) << "40 ticks of 11 columns";
+      ASSERT_EQ(firing.first_column, 11 * static_cast<int>(i)) << "a scan has 40 ticks of 11 columns each";
       ASSERT_EQ(firing.tick, at_once ? beams.tick : beams.tick - 39 + static_cast<Tick>(i));
       const Isometry3d X_WL = lidar_pose(sway_->X_WB(seconds(firing.tick)), lidar_->servo(firing.tick).angle);
       const Isometry3d off = X_WL.inverse() * firing.X_WL;
@@ -172,7 +172,7 @@ class BeamsThereAndBack : public testing::TestWithParam<Case> {
   Outcome tally_;
 };
 
-TEST_P(BeamsThereAndBack, EveryBeamIsWhatTheLidarMeasured) {
+TEST_P(BeamsThereAndBack, EveryBeamIsReconstructedAsTheLidarMeasuredIt) {
   constexpr Tick kEnd = 560;
   struct Taken {
     agent::Scan scan;
@@ -206,7 +206,7 @@ TEST_P(BeamsThereAndBack, EveryBeamIsWhatTheLidarMeasured) {
   EXPECT_EQ(tally_.false_none, 0U);
   EXPECT_GE(static_cast<double>(tally_.exact), 0.999 * static_cast<double>(tally_.beams));
   for (const std::size_t seen : {tally_.none, tally_.range, tally_.near, tally_.uav, tally_.hidden}) {
-    EXPECT_GT(seen, 100U) << "the scenes have all of it";
+    EXPECT_GT(seen, 100U) << "a kind of beam is too rare in these scenes";
   }
   RecordProperty("exact", std::to_string(tally_.exact) + " of " + std::to_string(tally_.beams));
 }
@@ -222,8 +222,8 @@ INSTANTIATE_TEST_SUITE_P(Flights, BeamsThereAndBack,
                                          Case{0.03, false, 20, true}, Case{0.03, true, 12, true}),
                          name_of_case);
 
-// Odometry errors like those of the faults odometry_jump and odometry_freeze.
-TEST_P(BeamsThereAndBack, FalseOdometryTellsNothing) {
+// Odometry errors are like those of the faults odometry_jump and odometry_freeze.
+TEST_P(BeamsThereAndBack, ScansWithFalseOdometryAreRejected) {
   std::size_t scans = 0;
   for (std::uint64_t key = 0; key < 12; ++key) {
     draw(key);

@@ -12,7 +12,7 @@ namespace {
 
 /// A UAV hovers for one sweep. At least half of the space in straight tubes of 10 m that start at it is free. The share
 /// of their length at which the whole cross-section is free is 0.45 with individual beams, and 0.42 on board.
-TEST(OneSweep, ProvesHalfOfTenMetres) {
+TEST(OneSweep, ProvesHalfOfTheSpaceWithinTenMetresFree) {
   for (const bool exact : {false, true}) {
     for (const double phase_s : {3.0, 0.5, 5.0}) {  // both directions of the servo
       const SensedSpace space(flights().front(), phase_s, exact ? exact_map() : agent::WorldMapper::Config());
@@ -41,10 +41,9 @@ TEST(OneSweep, ProvesHalfOfTenMetres) {
 
 class FlownMap : public testing::TestWithParam<std::size_t> {};
 
-/// The map on board assigns all beams of a bundle to one window, so single cubes at the border of the proved space
-/// differ in both directions, but tubes hardly do. Each map by itself must fulfil the criterion
-/// (drawn_members_test.cpp).
-TEST_P(FlownMap, KnowsWhatEachBeamForItselfProves) {
+/// The map on board assigns all beams of a bundle to one window. So at the border of the proved space, cubes may be
+/// free in only one of the two maps, but tubes hardly ever. drawn_members_test.cpp tests the criterion for each map.
+TEST_P(FlownMap, AgreesWithTheMapOfIndividualBeams) {
   const Flight flight = flights()[GetParam()];
   const SensedSpace flown(flight, 3.0, {}), exact(flight, 3.0, exact_map());
   RandomStream random(GetParam() + 1, "flown_map", 0);
@@ -70,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Flights, FlownMap, testing::Range<std::size_t>(0, fligh
                          [](const auto& flight) { return flights()[flight.param].name; });
 
 /// The effort is measured by counts, not by time: windows that beams pass, and bytes.
-TEST(FlownMap, CostsNoMoreThanItMay) {
+TEST(FlownMap, StaysWithinItsBoundsOfEffortAndMemory) {
   for (const Flight& flight : flights()) {
     const SensedSpace flown(flight, 3.0, {});
     const agent::WorldMap::Counts counts = flown.map().counts();

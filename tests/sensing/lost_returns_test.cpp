@@ -48,10 +48,11 @@ class LostBeams : public testing::TestWithParam<double> {
   }
 };
 
-TEST_P(LostBeams, AreMadeUpForByACriterionThatKnowsOfThem) {
+TEST_P(LostBeams, AreCompensatedByACriterionThatKnowsTheirShare) {
   const Tally knows = draw(losing(GetParam()), "the map knows"), ignores = draw({}, "the map does not know");
   EXPECT_LT(knows.upper_bound(), kLimit);
-  EXPECT_GT(ignores.lower_bound(), knows.upper_bound()) << "or this test cannot fail";
+  EXPECT_GT(ignores.lower_bound(), knows.upper_bound())
+      << "a map that ignores lost returns must be worse, or this test cannot fail";
 }
 
 INSTANTIATE_TEST_SUITE_P(Shares, LostBeams, testing::Values(0.3, 0.5), [](const auto& p) {
@@ -72,7 +73,7 @@ Tally draw_with_sectors(SensedSpace& space, const std::string& what) {
 
 /// Sectors that are drawn anew several times while the LiDAR scans a place have no more effect than single lost beams.
 /// With longer sectors, the LiDAR misses some members; free_evidence.hpp explains this limit.
-TEST(DroppedSectors, AreMadeUpForIfTheyAreDrawnAnewWhileTheLidarLooks) {
+TEST(DroppedSectors, AreCompensatedIfTheyAreRedrawnWhileTheLidarScansAPlace) {
   for (const double share : {0.1, 0.3}) {
     for (const double hold_s : {0.3, 3.0, 100.0}) {
       const LidarConfig lidar = losing(0.0, DroppedSectors{.share = share, .width_deg = 30.0, .hold_s = hold_s});

@@ -163,7 +163,7 @@ class Passing {
   const bool doubts_;
 };
 
-TEST(PassingUav, LeavesItsPlaceFreeAndPolesStay) {
+TEST(PassingUav, ItsTraceIsRemovedFromTheMapAndPolesStay) {
   Seen all;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Seen seen = Passing(seed, true).fly();
@@ -177,12 +177,12 @@ TEST(PassingUav, LeavesItsPlaceFreeAndPolesStay) {
     EXPECT_EQ(seen.lost, 0U) << seed;
     EXPECT_EQ(seen.pole_free, 0U) << seed;
   }
-  EXPECT_GT(all.trace, 100U) << "it is seen";
-  EXPECT_GT(all.poles, 30U) << "and they are";
+  EXPECT_GT(all.trace, 100U) << "the LiDAR has hardly seen the other UAV";
+  EXPECT_GT(all.poles, 30U) << "the LiDAR has hardly seen the poles";
   EXPECT_GT(static_cast<double>(all.free), 0.8 * static_cast<double>(all.trace));
 }
 
-TEST(PassingUav, StaysOnAMapThatDoubtsNothing) {
+TEST(PassingUav, ItsTraceStaysOnAMapThatDoubtsNoCubes) {
   const Seen seen = Passing(1, false).fly();
   EXPECT_GT(seen.trace, 20U);
   EXPECT_EQ(seen.left, seen.trace);

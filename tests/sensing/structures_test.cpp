@@ -80,7 +80,7 @@ agent::WorldMapper flown(const DrawnScene& scene, const Flight& flight, const ag
 
 class Structures : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(Structures, AreNotWhereABodyMayBe) {
+TEST_P(Structures, AreNeverInTubesThatTheMapCallsFree) {
   const Flight flight = flights()[GetParam()];
   std::size_t places = 0, free_places = 0;
   for (std::uint64_t key = 1; key <= 4; ++key) {

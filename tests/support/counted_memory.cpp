@@ -30,7 +30,7 @@ void count_new(std::size_t size) {
   }
 }
 
-/// Memory from before the count began may be released during it, so the sum may be negative.
+/// Memory that was allocated before the count began may be released during it, so the sum may be negative.
 void count_delete(std::size_t size) {
   if (counting) bytes_in_use -= static_cast<std::ptrdiff_t>(size);
 }

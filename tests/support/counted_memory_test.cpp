@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::size_t kBlock = 1'000'000, kSlack = 10'000;
 
-/// Written to, so that the compiler cannot do without it.
+/// A variable that is written to, so that the compiler cannot remove the allocation.
 void use_block() {
   std::vector<char> block(kBlock, 'a');
   ASSERT_EQ(block[kBlock / 2], 'a');
 }
 
-TEST(CountedMemory, CountsAllAndTheMostAtOneTime) {
+TEST(CountedMemory, CountsAllMemoryAndTheMaximumInUse) {
   const CountedMemory memory;
   EXPECT_LE(memory.allocated(), kSlack);
   use_block();
@@ -38,7 +38,7 @@ TEST(CountedMemory, MemoryInUseBeforeMayBeFreed) {
   const CountedMemory memory;
   before.reset();
   use_block();
-  EXPECT_LE(memory.peak(), kSlack) << "no more is in use than at the start";
+  EXPECT_LE(memory.peak(), kSlack) << "freed memory from before the count began must not be added to the maximum";
 }
 
 }  // namespace

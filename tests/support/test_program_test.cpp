@@ -38,7 +38,7 @@ std::set<std::string> parameters(std::size_t turn, bool aligned) {
   return seen;
 }
 
-TEST(TestsInTurn, EveryTurnSeesEveryParameterOrOnlySome) {
+TEST(TestsInTurn, EveryTurnHasAllParametersOrOnlySomeIfAligned) {
   const std::set<std::string> all = {"one", "two"};
   for (std::size_t turn = 0; turn < 2; ++turn) {
     EXPECT_EQ(parameters(turn, false), all);
@@ -62,7 +62,7 @@ TEST(TestsInTurn, WithHalvesEachTestHasItsTurnOnceInTwiceAsMany) {
   }
 }
 
-TEST(TestsInTurn, TheOtherHalfRunsNothing) {
+TEST(TestsInTurn, ATurnOfTheOtherHalfRunsNoTests) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   const std::string file = " --file tests/support/test_program_test.cpp --gtest_filter=TemporaryFolder.WritesAFile*";
   const auto prints = [&](const std::string& options) {
@@ -78,7 +78,7 @@ TEST(TestsInTurn, TheOtherHalfRunsNothing) {
   EXPECT_EQ(WEXITSTATUS(status), 2);
 }
 
-TEST(TestsInTurn, NoSharesAreRefused) {
+TEST(TestsInTurn, AnInvalidNumberOfTurnsIsRefused) {
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   for (const std::string shares : {"0", "many"}) {
     const int status = std::system(("SKEIN_TURN=1 '" + program + "' --turns " + shares + " 2>/dev/null").c_str());
@@ -109,7 +109,8 @@ TEST(TemporaryFolder, BelongsToOneProgramAndIsRemovedIfItsTestsPass) {
     return left;
   };
   EXPECT_EQ(left_by(""), 0U);
-  EXPECT_EQ(left_by("SKEIN_TEST_FAILS=1"), 3U) << "the folder with both files, to look at";
+  EXPECT_EQ(left_by("SKEIN_TEST_FAILS=1"), 3U)
+      << "after a failure, the folder with its file and its folder must remain";
 }
 
 }  // namespace

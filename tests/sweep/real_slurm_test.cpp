@@ -7,7 +7,7 @@ namespace {
 class RealSlurm : public SweepTest {
  protected:
   void SetUp() override {
-    if (!long_tests()) GTEST_SKIP() << "in the long suite";
+    if (!long_tests()) GTEST_SKIP() << "only the long suite runs this: SKEIN_LONG=1";
     fs::create_directories(dir_);
     daemons_ = &start_program("daemons", {source_path("tests/sweep/real_slurm.sh"), dir_});
     ASSERT_TRUE(eventually([&] { return fs::exists(dir_ / "ready") || daemons_->ended(); })) << daemons_->out();
@@ -32,14 +32,14 @@ class RealSlurm : public SweepTest {
   ChildProcess* daemons_ = nullptr;
 };
 
-TEST_F(RealSlurm, IsAsThePlainStudy) {
+TEST_F(RealSlurm, GivesTheResultsOfThePlainStudy) {
   ChildProcess& study = fly("slurm", {"--executor", "slurm", "--slurm", "partition=debug"}, slurm_);
   EXPECT_EQ(study.wait().code, 0) << study.err() << text_of(folder() / "slurm/sweep/log/slurm.log");
   expect_as_plain("slurm");
   EXPECT_NE(study.err().find("2 nodes; 1 flight flown again elsewhere, each with the same digest"), std::string::npos)
       << study.err();
 
-  // The sweep's controller is killed during the sweep; then a job of Slurm merges.
+  // If the sweep's controller is killed during the sweep, a job of Slurm merges the results.
   ChildProcess& killed = fly("killed", {"--executor", "slurm"}, slurm_);
   EXPECT_TRUE(eventually([&] { return flown("killed") >= 2; })) << killed.err();
   killed.signal(SIGKILL);
@@ -50,12 +50,12 @@ TEST_F(RealSlurm, IsAsThePlainStudy) {
 }
 
 // Slurm moves the tasks of a lost node to another node, and keeps its jobs in files.
-TEST_F(RealSlurm, ANodeAndTheControllerOfTheClusterMayDie) {
+TEST_F(RealSlurm, CompletesAStudyAlthoughANodeAndTheControllerDie) {
   ChildProcess& study = fly("deaths", {"--executor", "slurm"}, slurm_);
   ASSERT_TRUE(eventually([&] { return flown("deaths") >= 2; })) << study.err();
   ASSERT_TRUE(kill_daemon("slurmctld"));
   ASSERT_TRUE(kill_daemon("node-n2"));
-  EXPECT_LT(flown("deaths"), flights()) << "they were to die in its midst";
+  EXPECT_LT(flown("deaths"), flights()) << "the study ended before the node and the controller were killed";
   // Slurm may need four minutes: if its controller died just after a task had ended, the new controller considers the
   // task running until it queries the node.
   EXPECT_TRUE(eventually([&] { return study.ended().has_value(); }, std::chrono::minutes(10))) << study.err();
@@ -65,7 +65,7 @@ TEST_F(RealSlurm, ANodeAndTheControllerOfTheClusterMayDie) {
 
 // The limit is one minute. Every half a minute, Slurm signals the jobs that reach their limit within a minute, so all
 // jobs that run then end.
-TEST_F(RealSlurm, ALimitOfTimeLeavesWholeFlights) {
+TEST_F(RealSlurm, KeepsCompleteFlightsWhenJobsReachTheirTimeLimit) {
   tests_ = 40;
   ChildProcess& study =
       fly("cut", {"--executor", "slurm", "--jobs", "1", "--unit-minutes", "100", "--slurm", "time=1"}, slurm_);
@@ -75,7 +75,7 @@ TEST_F(RealSlurm, ALimitOfTimeLeavesWholeFlights) {
 }
 
 // `skein run --place slurm`: the launcher is on one node of the allocation, the UAVs are on the other one.
-TEST_F(RealSlurm, AFleetOverTheNodesOfAnAllocation) {
+TEST_F(RealSlurm, FliesAFleetOverTheNodesOfAnAllocation) {
   const Arguments flight = {"towers", "--planner", "patrol", "--duration", "10", "--no-oracle", "--no-report"};
   run("one", flight);
   std::string script = "#!/bin/sh\nexec " + program("skein") + " run";

@@ -32,36 +32,37 @@ class Sweep : public SweepTest {
   }
 };
 
-TEST_F(Sweep, LocalUnitsAreAsThePlainStudy) {
+TEST_F(Sweep, LocalUnitsGiveTheResultsOfThePlainStudy) {
   ChildProcess& local = fly("local", {"--executor", "local", "--jobs", "2"});
   ASSERT_EQ(local.wait().code, 0) << local.err();
   expect_as_plain("local");
   ChildProcess& again = fly("local", {"--executor", "local"});
   ASSERT_EQ(again.wait().code, 0) << again.err();
-  EXPECT_EQ(again.err().find("units are over"), std::string::npos) << "nothing flies: " << again.err();
+  EXPECT_EQ(again.err().find("units are over"), std::string::npos)
+      << "a complete study flew units again: " << again.err();
   expect_as_plain("local");
 }
 
-TEST_F(Sweep, ParallelIsAsThePlainStudy) {
+TEST_F(Sweep, GnuParallelGivesTheResultsOfThePlainStudy) {
   if (!is_installed("parallel")) GTEST_SKIP() << "there is no GNU parallel: apt-get install parallel";
   ChildProcess& parallel = fly("parallel", {"--executor", "parallel", "--jobs", "2"});
   ASSERT_EQ(parallel.wait().code, 0) << parallel.err();
   expect_as_plain("parallel");
 }
 
-TEST_F(Sweep, AControllerThatIsKilledCostsNothingButTime) {
+TEST_F(Sweep, AControllerThatIsKilledDoesNotChangeTheResults) {
   ChildProcess& first = fly("killed", {"--executor", "local", "--jobs", "2"});
   ASSERT_TRUE(eventually([&] { return flown("killed") >= 2; })) << first.err();
   first.signal(SIGKILL);
   first.wait();
   const std::size_t before = flown("killed");
-  EXPECT_LT(before, flights()) << "it was to be killed in its midst";
+  EXPECT_LT(before, flights()) << "the study ended before its controller was killed";
   ChildProcess& second = fly("killed", {"--executor", "local", "--jobs", "2"});
   ASSERT_EQ(second.wait().code, 0) << second.err();
   expect_as_plain("killed");
 }
 
-TEST_F(Sweep, UnitsThatFlyTwiceAtOnceAndInAnotherOrderCountOnce) {
+TEST_F(Sweep, UnitsThatAreFlownTwiceCountOnce) {
   ChildProcess& study = fly("twice", {"--executor", "local", "--jobs", "1"});
   ASSERT_TRUE(eventually([&] { return fs::exists(folder() / "twice/sweep/sweep.json") || study.ended(); }));
   for (std::size_t unit = flights(); unit-- > 0;) {
@@ -73,20 +74,20 @@ TEST_F(Sweep, UnitsThatFlyTwiceAtOnceAndInAnotherOrderCountOnce) {
   expect_as_plain("twice");
 }
 
-TEST_F(Sweep, AFullDiskCostsNothingButTime) {
+TEST_F(Sweep, AFullDiskDoesNotChangeTheResults) {
   const SmallDisk disk(folder() / "full", 1200);
   if (!disk.mounted()) GTEST_SKIP() << "a disk can be mounted by root only";
   const Arguments how = {"--executor", "local", "--jobs", "2"};
   ChildProcess& first = fly("full", how);
   EXPECT_NE(first.wait().code, 0);
-  EXPECT_LT(flown("full"), flights()) << "it was to have no room for all";
+  EXPECT_LT(flown("full"), flights()) << "the disk had room for all flights, so this tests nothing";
   ASSERT_TRUE(disk.grow(100'000));
   ChildProcess& second = fly("full", how);
   EXPECT_EQ(second.wait().code, 0) << second.err() << logs("full");
   expect_as_plain("full");
 }
 
-TEST_F(Sweep, SlurmIsAsThePlainStudyAndGetsWhatItWants) {
+TEST_F(Sweep, SlurmGetsItsOptionsAndGivesTheResultsOfThePlainStudy) {
   const Environment with = slurm("n1\nn2\n", "5");
   ChildProcess& study =
       fly("by_slurm", {"--executor", "slurm", "--jobs", "2", "--slurm", "partition=debug,account=mine,yours"}, with);
@@ -94,19 +95,19 @@ TEST_F(Sweep, SlurmIsAsThePlainStudyAndGetsWhatItWants) {
   expect_as_plain("by_slurm");
   ASSERT_TRUE(eventually([&] { return slurm_is_idle(); }));
   const std::string calls = text_of(folder() / "slurm" / "calls");
-  EXPECT_NE(calls.find("--array=0-4%2"), std::string::npos) << "cut to MaxArraySize: " << calls;
+  EXPECT_NE(calls.find("--array=0-4%2"), std::string::npos) << "the array must have MaxArraySize tasks: " << calls;
   EXPECT_NE(calls.find("--account=mine,yours"), std::string::npos) << calls;
   EXPECT_NE(calls.find("-merge --dependency=afterany:"), std::string::npos) << calls;
   EXPECT_NE(study.err().find("2 nodes; 1 flight flown again elsewhere, each with the same digest"), std::string::npos)
       << study.err();
 }
 
-TEST_F(Sweep, DetachedItIsMergedByAJobThoughTasksAreKilled) {
+TEST_F(Sweep, AJobMergesADetachedStudyAlthoughTasksAreKilled) {
   const Environment with = slurm("n1\nn2\n");
   ChildProcess& study = fly("detached", {"--executor", "slurm", "--detach"}, with);
   ASSERT_EQ(study.wait().code, 0) << study.err();
   EXPECT_FALSE(fs::exists(folder() / "detached" / "report.html"));
-  // A node dies, twice; each time Slurm gives its unit to another node.
+  // A node dies twice. Each time, Slurm gives its unit to another node.
   for (std::size_t after = 1; after <= 3; after += 2) {
     ASSERT_TRUE(eventually([&] { return flown("detached") >= after; }));
     for (const Json& pid : slurm_jobs()["1"]["pids"]) ::kill(-pid.get<pid_t>(), SIGKILL);
@@ -119,7 +120,7 @@ TEST_F(Sweep, DetachedItIsMergedByAJobThoughTasksAreKilled) {
   expect_as_plain("detached");
 }
 
-TEST_F(Sweep, ALimitOfTimeLeavesWholeFlights) {
+TEST_F(Sweep, ATimeLimitKeepsCompleteFlights) {
   const Environment with = slurm("n1\nn2\n");
   tests_ = 8;  // units of two flights
   ChildProcess& study =
@@ -132,7 +133,7 @@ TEST_F(Sweep, ALimitOfTimeLeavesWholeFlights) {
   EXPECT_TRUE(fs::is_empty(folder() / "cut/sweep/air"));
 }
 
-TEST_F(Sweep, AnotherBuildOnANodeFliesNothing) {
+TEST_F(Sweep, AUnitWithAnotherBuildIsRefused) {
   // In this build, `station` is another file with the same behaviour.
   const fs::path bin = folder() / "bin";
   fs::create_directories(bin);
@@ -152,7 +153,7 @@ TEST_F(Sweep, AnotherBuildOnANodeFliesNothing) {
     EXPECT_NE(more.err().find(part), std::string::npos) << more.err();
   }
   EXPECT_EQ(text_of(folder() / "builds/sweep/sweep.json"), sweep);
-  EXPECT_EQ(flown("builds"), flights()) << "no flight of the earlier build is lost";
+  EXPECT_EQ(flown("builds"), flights()) << "flights of the earlier build are lost";
   fs::remove_all(folder() / "builds/flights");
   ChildProcess& unit =
       start_program("unit", {program("skein"), "--unit", folder() / "builds", "0"}, {{"SKEIN_BIN_DIR", bin}});
@@ -161,7 +162,7 @@ TEST_F(Sweep, AnotherBuildOnANodeFliesNothing) {
   EXPECT_EQ(flown("builds"), 0U);
 }
 
-TEST_F(Sweep, AHuntIsTheSameSearch) {
+TEST_F(Sweep, AHuntFliesTheSameCases) {
   const auto hunt = [&](const std::string& out, const Arguments& how) -> ChildProcess& {
     return start_program(out, joined({program("skein"), "hunt", scene_, "--planner", "patrol", "--runs", "20",
                                       "--duration", "90", "--shrink", "0", "--out", folder() / out},
@@ -182,7 +183,7 @@ TEST_F(Sweep, AHuntIsTheSameSearch) {
   EXPECT_EQ(lines("plain hunt").size(), 20U);
   EXPECT_EQ(lines("plain hunt"), lines("swept hunt"));
   const fs::directory_iterator cases(folder() / "swept hunt/sweep/cases");
-  EXPECT_LE(std::distance(cases, {}), 4) << "fault files of the last round only, which has four cases";
+  EXPECT_LE(std::distance(cases, {}), 4) << "only the fault files of the last round, which has four cases, may remain";
 }
 
 /// Flies with the archive alone, in a root folder that contains nothing else.

@@ -18,7 +18,7 @@ const shown = () => page.$$eval('#fleet tbody tr', (rows) => Object.fromEntries(
   return [row.querySelector('button').textContent, [cell.firstChild?.textContent ?? '', why]];
 })));
 
-/** @returns the same from activity.csv. @param seconds  simulated time. */
+/** @returns activities and reasons from activity.csv at a time. @param seconds  simulated time. */
 function written(seconds) {
   const [head, ...lines] = readFileSync(path.join(run, 'activity.csv'), 'utf8').trim().split('\n').map((l) => l.split(','));
   const found = {};
@@ -32,14 +32,14 @@ function written(seconds) {
 }
 
 const held = await pausedByItself(page);
-expect(held.tick === 12 * kTicks, `it paused at tick ${held.tick}`);
+expect(held.tick === 12 * kTicks, `the run paused at tick ${held.tick}`);
 await sleep(1000);  // lines and states do not arrive in a common order
 const live = await shown();
 await page.evaluate((name) => [...document.querySelectorAll('#fleet button')]
     .find((button) => button.textContent === name).click(), uav);
 const facts = await page.$eval('#chosen', (element) => element.textContent);
 for (const word of [live[uav][0], 'goal', 'waits for', 'ms for a simulated second'])
-  expect(facts.includes(word), `of ${uav} the page says ${facts}, without ${word}`);
+  expect(facts.includes(word), `the page shows '${facts}' for ${uav}, without '${word}'`);
 await page.keyboard.press('Escape');
 
 // A program that does not answer stops the run, and the page names its UAV.
@@ -48,10 +48,11 @@ process.kill(Number(pid), 'SIGSTOP');
 try {
   const waits = await until(page, ({state}) => state === 'waits', `it waits for ${uav}`);
   const text = await page.$eval('#state', (element) => element.textContent);
-  expect(text === `waits for ${uav} (to answer)`, `it says '${text}'`);
+  expect(text === `waits for ${uav} (to answer)`, `the page says '${text}' while the run waits for ${uav}`);
   await sleep(1000);
   const still = await stateOf(page);
-  expect(still.state === 'waits' && still.tick === waits.tick, `it went from ${waits.tick} to ${still.tick} meanwhile`);
+  expect(still.state === 'waits' && still.tick === waits.tick,
+      `the run flew from tick ${waits.tick} to ${still.tick} while it waited`);
 } finally {
   process.kill(Number(pid), 'SIGCONT');
 }
@@ -73,7 +74,7 @@ for (const name of Object.keys(table)) {
 expect(Object.keys(table).length === Object.keys(live).length, 'activity.csv has not all UAVs');
 // The lanes have a colour for each activity that the UAVs reported.
 const others = await page.evaluate(() => globalThis.skein.figures().otherModes);
-expect(others.length === 0, `of no kind: ${others}`);
+expect(others.length === 0, `the lanes have no colour for ${others}`);
 expect((await page.$$('#modes li')).length > 4, 'the lanes have no legend');
 for (const complaint of complaints) console.log(complaint);
 await endBrowser(browser);

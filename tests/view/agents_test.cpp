@@ -50,7 +50,7 @@ class AgentsAndThePage : public ViewTest {
   }
 };
 
-TEST_F(AgentsAndThePage, ASecuredAgentSeesTheDoorAndNoMore) {
+TEST_F(AgentsAndThePage, ASecuredAgentSeesOnlyTheLoginPage) {
   fs::permissions(folder(), fs::perms(0755));  // agents read the scenario as users of their own
   const std::string scenario = write_small_scene(folder() / "small");
   const FreePort port;
@@ -83,7 +83,7 @@ TEST_F(AgentsAndThePage, ASecuredAgentSeesTheDoorAndNoMore) {
   const std::string looked = text_of(seen.dir() / ("uav_agent-" + kAgent + ".looked"));
   const std::string refused = "/: the door\n/live.js: HTTP/1.1 403 Forbidden\n/flight: HTTP/1.1 403 Forbidden\n";
   ASSERT_TRUE(looked.starts_with(refused)) << looked;
-  EXPECT_GT(std::atoi(looked.substr(refused.size()).c_str()), 0) << "not root: " << looked;
+  EXPECT_GT(std::atoi(looked.substr(refused.size()).c_str()), 0) << "the agent is root: " << looked;
   EXPECT_EQ(looked.find(secret), std::string::npos);
 }
 

@@ -19,20 +19,20 @@ class PageOfARun : public BrowserTest {
     EXPECT_EQ(seen.exit_code(), 0) << seen.err();
     expect_complete_result(seen);
     EXPECT_EQ(seen.digest(), unseen);
-    EXPECT_FALSE(std::filesystem::exists(door)) << "the key stays";
+    EXPECT_FALSE(std::filesystem::exists(door)) << "the file with the key was not deleted";
   }
 };
 
 const Arguments kWatchedFlight = {"towers", "--planner", "kios", "--duration", "60", "--no-oracle"};
 
-/// With the oracle, so that the page shows losses, too.
+/// A flight with the oracle's estimate, so that the page shows losses, too.
 const Arguments kEstimatedFlight = {"towers", "--planner", "kios", "--duration", "60"};
 
 TEST_F(PageOfARun, FollowsAFleetOverDds) { watch(kEstimatedFlight, {}); }
 
 TEST_F(PageOfARun, FollowsAFleetInOneProcess) { watch(kEstimatedFlight, {"--one-process"}); }
 
-TEST_F(PageOfARun, TellsTheActivityOfUavsAndTheProgramForWhichARunWaits) {
+TEST_F(PageOfARun, ShowsTheActivityOfUavsAndTheProgramForWhichARunWaits) {
   const std::string unseen = run("unseen", joined(kWatchedFlight, {"--one-process"})).digest();
   SkeinRun& seen = start("seen", joined(kWatchedFlight, {"--view", "--pause-at", "12", "--speed", "2"}));
   const std::filesystem::path door = door_of(seen);
@@ -40,14 +40,14 @@ TEST_F(PageOfARun, TellsTheActivityOfUavsAndTheProgramForWhichARunWaits) {
   look("activity", door, seen.dir(), {"jurong", std::to_string(processes_of(seen.dir()).at("uav_agent-jurong"))});
   seen.skein().signal(SIGINT);
   EXPECT_EQ(seen.exit_code(), 0) << seen.err();
-  EXPECT_EQ(seen.digest(), unseen) << "a program that stood still for a while is none that was lost";
+  EXPECT_EQ(seen.digest(), unseen) << "a program that was stopped for a while counts as lost, or changed the flight";
 }
 
 TEST_F(PageOfARun, ShowsPointsAndMapsOverDds) { watch(kWatchedFlight, {"--dds", "mixed"}, "clouds"); }
 
 TEST_F(PageOfARun, ShowsPointsAndMapsInOneProcess) { watch(kWatchedFlight, {"--one-process"}, "clouds"); }
 
-TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
+TEST_F(PageOfARun, ReconnectsToAStationThatWasKilled) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 16, until_s: 18, kill: station}\n");
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
     const std::string name = how.empty() ? "dds" : "one";
@@ -59,8 +59,8 @@ TEST_F(PageOfARun, ComesBackWithAStationThatWasKilled) {
   }
 }
 
-// The file of the faults that its buttons caused repeats the flight.
-TEST_F(PageOfARun, BreaksAFleetByItsButtons) {
+// Buttons of the page cause faults; the file with these faults must repeat the flight.
+TEST_F(PageOfARun, CausesFaultsByItsButtons) {
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
     const std::string name = how.empty() ? "dds" : "one";
     SkeinRun& seen = start(name, joined(joined(kWatchedFlight, how), {"--view", "--pause-at", "12", "--speed", "2"}));
@@ -73,8 +73,8 @@ TEST_F(PageOfARun, BreaksAFleetByItsButtons) {
   }
 }
 
-// As with `ssh -L`, from another machine.
-TEST_F(PageOfARun, ComesThroughATunnelWithAnotherPort) {
+// The browser reaches the page as from another machine with `ssh -L`.
+TEST_F(PageOfARun, WorksThroughATunnelWithAnotherPort) {
   SkeinRun& seen =
       start("seen", joined(kWatchedFlight, {"--one-process", "--view", "--pause-at", "5", "--speed", "2"}));
   look("tunnel", door_of(seen), seen.dir());

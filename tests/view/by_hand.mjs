@@ -32,11 +32,12 @@ await until(page, ({state}) => state === 'paused', 'it is paused by its button')
 await page.focus(cell(4, 0));
 await page.keyboard.press('Enter');
 await waitUntil(() => look(cell(4, 0)), ({kind}) => kind.includes('waits'), 'the cut waits for the next step');
-expect((await faults()).some((text) => text.includes('begins with the next step')), `no fault waits: ${await faults()}`);
+expect((await faults()).some((text) => text.includes('begins with the next step')),
+    `no fault waits for the next step: ${await faults()}`);
 await step();
 const cut = await waitUntil(() => look(cell(4, 0)), ({kind}) => !kind.includes('waits'), 'the link is cut');
-expect(cut.title.includes('click to restore it'), `the cell says ${cut.title}`);
-expect(['l l2', 'l l0'].includes(cut.kind), `the cell is ${cut.kind}`);  // l0: out of sight
+expect(cut.title.includes('click to restore it'), `the title of the cell is ${cut.title}`);
+expect(['l l2', 'l l0'].includes(cut.kind), `the class of the cell is ${cut.kind}`);  // l0: out of sight
 expect((await look(cell(0, 4))).kind !== 'l l2', 'the other direction is cut, too');
 
 // A fault that has not begun can be cancelled.
@@ -45,7 +46,8 @@ const kill = '#uav-faults button[data-fault="kill"]';
 await waitUntil(() => look(kill), ({disabled}) => !disabled, 'faults can be injected into the chosen UAV');
 await page.click(kill);
 await waitUntil(() => look(kill), ({text}) => text.includes('Cancel'), 'the kill waits');
-expect((await look('#uav-faults button[data-fault="pause"]')).disabled, 'a killed program could be paused, too');
+expect((await look('#uav-faults button[data-fault="pause"]')).disabled,
+    'the button to pause a killed program is enabled');
 await page.click(kill);
 await waitUntil(() => look(kill), ({pressed}) => pressed === 'false', 'it is cancelled');
 // This time the fault begins; afterwards the program is started again.
@@ -60,7 +62,7 @@ await waitUntil(() => look(kill), ({text}) => text.includes('Kill'), 'it starts 
 await step();
 await waitUntil(faults, (texts) => texts.some((text) => /killed.*changi.*\d to \d/.test(text)), 'the kill is in the list as over');
 
-// Another way to end a fault, and a fault that the server refuses.
+// Ends a fault by the button in the list of faults, and begins a fault that the server refuses.
 await page.$$eval('#faults ol li.on button', (buttons) => buttons.at(-1).click());  // the oldest: the link
 await step();
 await waitUntil(() => look(cell(4, 0)), ({title}) => title.includes('Click to cut it'), 'the link is healed');
@@ -88,7 +90,7 @@ for (const one of ['begin link changi > gcs', 'end link changi > gcs', 'begin ki
   expect(done.includes(one), `result.json does not name "${one}": ${done}`);
 expect(done.length === 7, `result.json names ${done}`);
 const told = await waitUntil(faults, (texts) => texts.length === 4, 'the replay lists them');
-expect(await page.$('#faults button') === null, 'a replay can be broken');
+expect(await page.$('#faults button') === null, 'a replay has buttons for faults');
 expect((await look(cell(4, 0))).disabled, 'a link of a replay can be cut');
 expect(told.some((text) => text.includes('camera fails')), `the replay lists ${told}`);
 for (const complaint of complaints) console.log(complaint);

@@ -11,7 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// UAVs deliver captures and exchange messages in it, so faults of links and programs change the digest.
+/// A flight in which UAVs deliver captures and exchange messages, so that faults of links and programs change the
+/// digest.
 const Arguments kBrokenFlight = {"towers", "--planner", "kios", "--duration", "60", "--no-oracle", "--no-report"};
 const Arguments kWatched = {"--view", "--view-close", "--speed", "10"};
 
@@ -105,20 +106,20 @@ class FaultsByHand : public ViewTest {
     ChildProcess& diff = skein({"diff", seen.dir(), repeated.dir()});
     EXPECT_EQ(diff.wait().code, 0) << diff.out() << diff.err();
     EXPECT_NE(run("unbroken", joined(kBrokenFlight, {"--one-process"})).digest(), seen.digest())
-        << "that proves little";
+        << "the faults did not change the flight, so its repetition proves little";
   }
 };
 
 TEST_F(FaultsByHand, AreRepeatedInOneProcess) { break_and_repeat(1, {"--one-process"}, {"--one-process"}); }
 
-TEST_F(FaultsByHand, AreRepeatedOfAFleetOverCycloneDds) { break_and_repeat(2, {}, {"--one-process"}); }
+TEST_F(FaultsByHand, OfAFleetOverCycloneDdsAreRepeated) { break_and_repeat(2, {}, {"--one-process"}); }
 
-TEST_F(FaultsByHand, AreRepeatedOfAFleetOverFastDds) { break_and_repeat(3, {"--dds", "fastdds"}, {"--one-process"}); }
+TEST_F(FaultsByHand, OfAFleetOverFastDdsAreRepeated) { break_and_repeat(3, {"--dds", "fastdds"}, {"--one-process"}); }
 
 TEST_F(FaultsByHand, AreRepeatedByAFleetOverDds) { break_and_repeat(4, {"--one-process"}, {"--dds", "mixed"}); }
 
 // The faults of the run's fault file come first, with the times that the seed drew, and its random losses are the same.
-TEST_F(FaultsByHand, StandBehindThoseOfTheFile) {
+TEST_F(FaultsByHand, AreRepeatedTogetherWithThoseOfTheFaultFile) {
   const auto own = write("own.yaml",
                          "faults:\n  - {at_s: [13, 16], for_s: [3, 9], link: {loss: 0.4}}\n"
                          "  - {when: time > 20 s, for_s: [1, 2], camera_failure: raffles}\n");
@@ -129,10 +130,10 @@ TEST_F(FaultsByHand, StandBehindThoseOfTheFile) {
   page.ask({{"do", "pause"}});
   ASSERT_TRUE(page.wait([&] { return page.state()["paused"] == true; }));
   EXPECT_FALSE(ask(page, {{"do", "fault"}, {"kind", "camera_failure"}, {"of", "raffles"}}))
-      << "the file's waits for it";
+      << "a fault by hand must be refused while a fault of the file waits for the same camera";
   EXPECT_NE(page.state()["faults"]["why"].get<std::string>().find("the camera of raffles"), std::string::npos);
   EXPECT_TRUE(ask(page, {{"do", "fault"}, {"kind", "kill"}, {"of", "changi"}}));
-  EXPECT_FALSE(page.state()["faults"]["open"][0]["begun"].get<bool>()) << "it waits for the next step";
+  EXPECT_FALSE(page.state()["faults"]["open"][0]["begun"].get<bool>()) << "a fault must not begin before the next step";
   page.ask({{"do", "step"}});
   ASSERT_TRUE(page.wait([&] { return page.state()["faults"]["open"][0]["begun"] == true; }));
   EXPECT_TRUE(ask(page, {{"do", "end_fault"}, {"fault", page.state()["faults"]["open"][0]["n"]}}));
@@ -141,7 +142,8 @@ TEST_F(FaultsByHand, StandBehindThoseOfTheFile) {
   EXPECT_EQ(seen.exit_code(), 0) << seen.err();
   const Json interventions = seen.result()["interventions"];
   ASSERT_EQ(interventions.size(), 2U) << interventions;
-  EXPECT_EQ(interventions[1]["step"].get<int>(), interventions[0]["step"].get<int>() + 1) << "one step was taken";
+  EXPECT_EQ(interventions[1]["step"].get<int>(), interventions[0]["step"].get<int>() + 1)
+      << "the run must have taken one step between the two";
   const Arguments again = joined(flight, {"--faults", seen.dir() / "by-hand.yaml"});
   EXPECT_EQ(run("again", again).digest(), seen.digest());
   EXPECT_NE(run("own", joined(flight, {"--faults", own})).digest(), seen.digest());
@@ -154,20 +156,21 @@ TEST_F(FaultsByHand, AStationThatIsKilledWhileTheRunIsPausedComesBack) {
   ASSERT_TRUE(page.wait([&] { return time(page) > 12.0; }));
   page.ask({{"do", "pause"}});
   ASSERT_TRUE(page.wait([&] { return page.state()["paused"] == true; }));
-  EXPECT_FALSE(ask(page, {{"do", "fault"}, {"kind", "kill"}, {"of", "station"}})) << "for ever";
+  EXPECT_FALSE(ask(page, {{"do", "fault"}, {"kind", "kill"}, {"of", "station"}}))
+      << "the station must not be killed for good while the run is paused";
   const double held_s = time(page);
   EXPECT_TRUE(ask(page, {{"do", "fault"}, {"kind", "kill"}, {"of", "station"}, {"for_s", 2}}));
   page.ask({{"do", "step"}});
-  ASSERT_TRUE(page.wait([&] { return time(page) >= held_s + 2.0; })) << "it is back";
+  ASSERT_TRUE(page.wait([&] { return time(page) >= held_s + 2.0; })) << "the station has not come back";
   ASSERT_TRUE(page.wait([&] { return page.state()["paused"] == true; }));
   const double back_s = time(page);
-  EXPECT_LT(back_s, held_s + 2.5) << "it is held again at once";
+  EXPECT_LT(back_s, held_s + 2.5) << "the run did not pause again when the station came back";
   page.ask({{"do", "resume"}});
   page.wait([] { return false; });
   EXPECT_EQ(seen.exit_code(), 0) << seen.err();
 }
 
-TEST_F(FaultsByHand, AKilledRunLeavesTheirFile) {
+TEST_F(FaultsByHand, AreInAValidFileAfterTheRunIsKilled) {
   SkeinRun& seen = start("seen", joined(joined(kBrokenFlight, {"--one-process"}), kWatched));
   PageClient page(door_of(seen));
   ASSERT_TRUE(page.wait([&] { return time(page) > 5.0; }));

@@ -51,8 +51,8 @@ await page.reload();  // so that the spy sees all messages
 await pausedByItself(page);
 await letGo(page);
 await eventually(() => told.frames > 30, 'news of the flight');
-expect(told.clouds === 0, 'there are points or maps, and no viewer looks');
-expect(await note() === '', `no viewer looks, and the page says ${await note()}`);
+expect(told.clouds === 0, 'points or maps were sent although no viewer requested them');
+expect(await note() === '', `the page says ${await note()} although no viewer requested points or maps`);
 
 await choose('speed', '0.5');  // so that the run does not end before the checks
 await choose('lidar-of', 'all');
@@ -60,11 +60,13 @@ await choose('map-of', 'jurong');
 await eventually(() => count('lidar') >= 10 && told.points.length > 1500, 'LiDAR points');
 await eventually(() => (told.newest.get('map jurong')?.steps?.[0].runs.length ?? 0) > 2000, 'a map of some size');
 expect(told.names.has('lidar jurong') && told.names.has('lidar raffles'), 'not all explorers have points');
-expect(![...told.names.keys()].some((name) => /sentosa|map raffles/.test(name)), 'there is what no viewer asked for');
-const each = told.bytes / [...told.names.values()].reduce((sum, times) => sum + times, 0);  // a busy machine joins some
+expect(![...told.names.keys()].some((name) => /sentosa|map raffles/.test(name)),
+    'points or maps were sent that no viewer requested');
+// A mean, because a busy machine may join messages.
+const each = told.bytes / [...told.names.values()].reduce((sum, times) => sum + times, 0);
 expect(each < kMostBytes, `points or a map have ${each} bytes`);
-expect(told.newest.get('map jurong').kind === 'what it flies on', 'it is another map');
-expect(told.newest.get('map jurong').free.length > 100, 'nothing is free at its height');
+expect(told.newest.get('map jurong').kind === 'what it flies on', 'the map is not the one that the UAV flies on');
+expect(told.newest.get('map jurong').free.length > 100, 'the map shows no free space at the UAV\'s height');
 
 // LiDAR points are near the structure, of which the page knows the interest points.
 const near = (() => {
@@ -88,7 +90,8 @@ const near = (() => {
 const share = told.points.filter(near).length / told.points.length;
 expect(share > 0.6, `${share} of the LiDAR points are beside the points of the structure`);
 const beside = told.points.filter(([x, y, z]) => near([x + 6, y - 6, z + 6])).length / told.points.length;
-expect(beside < share / 2, `${beside} of the LiDAR points would be there if they stood elsewhere: that proves little`);
+expect(beside < share / 2,
+    `even if the points are shifted, ${beside} of them are beside the structure: that proves little`);
 
 // Each choice changes the picture. The run is paused, so that nothing else changes it.
 await press('pause');
@@ -123,11 +126,12 @@ await eventually(() => told.since > 60, 'an end of the lease');
 await choose('speed', 'max');
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
 await sleep(500);
-expect(await page.$eval('#lidar-of', (element) => element.disabled), 'the recording has no clouds');
+expect(await page.$eval('#lidar-of', (element) => element.disabled),
+    'LiDAR points are offered although the recording has none');
 const before = await stage();
 await choose('map-of', 'jurong');
 await eventually(async () => /jurong: /.test(await note()), 'the map in the replay');
 const after = await stage();
-expect(before.png !== after.png, 'the map of the replay is not to be seen');
+expect(before.png !== after.png, 'the map of the replay is not visible');
 for (const complaint of complaints) console.log(complaint);
 await endBrowser(browser);

@@ -7,13 +7,13 @@ import {makeUp} from './made_up.mjs';
 import {openRun, waitUntil} from './page.mjs';
 
 const kPosePeriod = 0.5;        // simulated seconds between two poses of a trail
-const kSpeed = 8;               // simulated seconds per second
+const kSpeed = 8;               // simulated seconds per second of wall time
 const kStates = 1000 / 80;      // greatest number that the server sends per second (kPause of view/server.cpp)
 const kPointSets = 5, kMapBytes = 20000;  // greatest rate per second, for 20 UAVs (view::look_budget())
 const kMostDrawCalls = 25;     // the requirement is 50
 const kMostSent = 300000;       // bytes per second
 const kLeastSent = 60000;       // bytes per second; fewer would mean that the flight is not the intended one
-const kMostGrowth = 1.4;        // of memory, from ten minutes to an hour; without thinning it is 2.2
+const kMostGrowth = 1.4;        // factor of memory from ten minutes to an hour; without thinning of trails it is 2.2
 const [web, chromium, door, feeder] = process.argv.slice(2);
 const expect = (good, what) => good || console.log(what);
 const note = (...what) => process.env.FIGURES && console.error(...what);
@@ -69,7 +69,8 @@ async function checkSent(from, until) {
   await flyTo(until);
   await devtools.send('Network.disable');
   const points = [...largest].reduce((sum, [name, bytes]) => sum + (name.startsWith('lidar') ? bytes : 0), 0);
-  expect(points > 5000 && largest.get('map uav00') > 5000, `points and map are not told: ${JSON.stringify([...largest])}`);
+  expect(points > 5000 && largest.get('map uav00') > 5000,
+      `points or map are not sent: ${JSON.stringify([...largest])}`);
   const onDemand = kPointSets * points + kMapBytes;
   const sent = (kSpeed * lines) / (until - from) + kStates * largestState + onDemand;
   note({sent, lines, largestState, messages, points, map: largest.get('map uav00')});
@@ -94,7 +95,8 @@ after.hour.memory = await memory();
 note(after.hour);
 expect(after.hour.mostDrawCalls <= kMostDrawCalls, `a picture takes ${after.hour.mostDrawCalls} draw calls`);
 const early = after.hour.early - after.tenMinutes.early;
-expect(early === 0, `${early} pictures were begun before the one before was finished: the page waits for the graphics driver`);
+expect(early === 0,
+    `${early} pictures were begun before the one before was finished, so the page waits for the graphics driver`);
 const growth = after.hour.memory / after.tenMinutes.memory;
 expect(growth <= kMostGrowth, `after an hour the page takes ${growth.toFixed(2)} times the memory of ten minutes`);
 for (const complaint of complaints) console.log(complaint);

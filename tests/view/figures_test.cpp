@@ -1,5 +1,5 @@
-// The cost of the page: draw calls, bytes sent, memory over an hour, for a large artificial flight that the test
-// advances. Nothing depends on the clock. And what the page tells of poor pictures.
+// The cost of the page: draw calls, bytes sent, and memory over an hour, for a large artificial flight that the test
+// advances, so that nothing depends on the clock. Also, what the page shows about poor pictures.
 #include "view_fixture.hpp"
 
 namespace skein::test {
@@ -13,8 +13,8 @@ TEST_F(FiguresOfThePage, StayWithinTheirBoundsOverAnHour) {
 
 class PoorPictures : public FleetTest {};
 
-TEST_F(PoorPictures, AreToldWithThePartOfTheQualityThatLowersItMost) {
-  if (command_file("node").empty()) GTEST_SKIP() << "there is no node";
+TEST_F(PoorPictures, AreShownWithThePartOfTheQualityThatLowersItMost) {
+  if (command_file("node").empty()) GTEST_SKIP() << "Node.js is not installed";
   ChildProcess& node = start_program("poor", {command_file("node"), source_path("tests/view/poor.mjs")});
   EXPECT_EQ(node.wait(kBrowserPatience).code, 0) << node.err();
   EXPECT_EQ(node.out(), "");

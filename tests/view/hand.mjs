@@ -24,7 +24,7 @@ await letGo(page);
 // Before the user takes the controls, keys have no effect.
 await page.keyboard.down('w');
 await sleep(700);
-expect((await hand()).wanted === 'rest', 'a key flies it before the controls were taken');
+expect((await hand()).wanted === 'rest', 'a key has an effect before the user has taken the controls');
 await page.keyboard.up('w');
 
 await page.click('#take');
@@ -50,7 +50,7 @@ await wait(({wanted}) => wanted.includes('ahead') && wanted.includes('turn left'
 await shoot('flying');
 await wait((now) => away(now) > 3, 'it is 3 m from there');
 await page.evaluate(() => dispatchEvent(new Event('blur')));
-await wait(({wanted}) => wanted === 'rest', 'a page without focus lets it rest');
+await wait(({wanted}) => wanted === 'rest', 'the UAV rests while the page has no focus');
 await page.keyboard.up('w');
 await page.keyboard.up('q');
 
@@ -63,12 +63,12 @@ await page.evaluate(() => {
 await page.keyboard.down('ArrowLeft');
 await wait(({wanted}) => wanted === 'left 1.0 m/s', 'it flies left at the speed of the slider');
 await page.keyboard.up('ArrowLeft');
-await wait(({wanted}) => wanted === 'rest', 'the arrow is up');
+await wait(({wanted}) => wanted === 'rest', 'the UAV rests when the arrow key is released');
 await page.keyboard.press('Escape');
-await wait(({title}) => title === `Fly ${uav} by hand`, 'Escape lets go');
+await wait(({title}) => title === `Fly ${uav} by hand`, 'Escape gives up the controls');
 await page.keyboard.down('d');
 await sleep(700);
-expect((await hand()).wanted === 'rest', 'a key flies it after the controls were let go');
+expect((await hand()).wanted === 'rest', 'a key has an effect after the user has let go of the controls');
 await page.keyboard.up('d');
 
 // A gamepad with the standard mapping.
@@ -77,9 +77,9 @@ await page.evaluate(() => {
   Object.defineProperty(navigator, 'getGamepads', {configurable: true, value: () => [pad]});
 });
 await page.click('#take');
-await wait(({wanted}) => wanted === 'ahead 1.0 m/s', 'a stick flies it, and its dead zone does not');
+await wait(({wanted}) => wanted === 'ahead 1.0 m/s', 'a stick flies the UAV, except within its dead zone');
 await page.evaluate(() => Object.defineProperty(navigator, 'getGamepads', {configurable: true, value: () => []}));
-await wait(({wanted}) => wanted === 'rest', 'the stick is let go');
+await wait(({wanted}) => wanted === 'rest', 'the UAV rests when the stick is released');
 
 await page.select('#speed', '8');
 await page.evaluate(() => document.activeElement.blur());

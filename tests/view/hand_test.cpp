@@ -19,7 +19,7 @@ bool rests(const std::map<std::string, std::string>& row) {
   return true;
 }
 
-TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
+TEST_F(FlownByHand, IsRepeatedFromTheRecordedCommands) {
   if (const std::string why = no_browser(); !why.empty()) GTEST_SKIP() << why;
   SkeinRun& flown = start("flown", joined(kHandFlight, {"--planner", "kios,jurong=hand", "--view", "--view-close",
                                                         "--pause-at", "0", "--record=run"}));
@@ -29,9 +29,9 @@ TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
 
   const fs::path kept = flown.dir() / "hand-jurong.csv";
   const auto rows = read_csv(kept);
-  ASSERT_GT(rows.size(), 8U) << "each key, down and up, and more";
+  ASSERT_GT(rows.size(), 8U) << "a command for each key that is pressed or released, and more";
   EXPECT_FALSE(rests(rows[rows.size() - 2]));
-  EXPECT_TRUE(rests(rows.back())) << "the browser vanished with a key down: the UAV came to rest all the same";
+  EXPECT_TRUE(rests(rows.back())) << "the UAV must stop when its browser vanishes while a key is pressed";
   const Json result = flown.result();
   EXPECT_EQ(result["hand"], Json::array({{{"uav", "jurong"}, {"file", "hand-jurong.csv"}, {"commands", rows.size()}}}));
   const std::string again = result["repeat_command"];
@@ -46,7 +46,8 @@ TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
       write("hand-nothing.csv", "step,tick,ahead,left,up,yaw_rate,gimbal_pitch_rate,gimbal_yaw_rate\n");
   const Arguments still = joined(kHandFlight, {"--planner", "kios,jurong=hand:" + nothing.string(), "--one-process"});
   EXPECT_NE(run("still", still).digest(), flown.digest());
-  EXPECT_FALSE(run("still2", joined(still, {"--stop-at", "5"})).result().contains("hand")) << "nobody flew";
+  EXPECT_FALSE(run("still2", joined(still, {"--stop-at", "5"})).result().contains("hand"))
+      << "the result must not mention flight by hand";
 
   ChildProcess& rerun =
       skein({"rerun", flown.dir().string(), "--uav", "jurong", "--out", (folder() / "rerun").string()});
@@ -58,7 +59,7 @@ TEST_F(FlownByHand, RepeatsFromWhatWasKept) {
 }
 
 /// Faults kill and pause the program of a UAV that a file of commands flies, in one process and in several.
-TEST_F(FlownByHand, RepeatsThroughFaultsOfItsProgram) {
+TEST_F(FlownByHand, IsRepeatedDespiteFaultsOfItsProgram) {
   const auto kept = write("hand-jurong.csv",
                           "step,tick,ahead,left,up,yaw_rate,gimbal_pitch_rate,gimbal_yaw_rate\n"
                           "20,400,0,0,2,0,0,0\n300,6000,1.5,0,0,0.3,0.25,-0.125\n460,9200,0,1,0,0,0,0\n");

@@ -14,10 +14,12 @@ const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
 const browser = await openBrowser(web, chromium);
 
 async function checkLosses(page) {
-  if (!result.losses) return expect(await lossesOf(page) === null, 'it tells of losses that are not known');
+  if (!result.losses) return expect(await lossesOf(page) === null,
+      'the page shows losses although the result has none');
   const shown = await page.$eval('#losses', (panel) => panel.innerText).catch(() => '');
   for (const {points, score} of Object.values(result.losses)) {
-    if (points > 0) expect(shown.includes(`${points}\t${(-score).toFixed(1)}`), `the losses lack ${points} points, ${-score}: ${shown}`);
+    if (points > 0) expect(shown.includes(`${points}\t${(-score).toFixed(1)}`),
+        `the losses do not show ${points} points and ${-score}: ${shown}`);
   }
   expect(shown.includes(result.attainable.score.toFixed(1)), `the losses do not show the attainable score: ${shown}`);
   await checkLossesInTime(page, await lossesOf(page));
@@ -47,19 +49,19 @@ async function checkLossesInTime(page, last) {
     expect(Math.abs(then.rows.delivered[1] - score) < 0.1 + 0.005 * score, `at ${k} sixths ${then.rows.delivered[1]} is delivered, and the score is ${score}`);
   }
   const begin = await at(0);
-  expect(begin.rows.delivered[0] === 0 && !begin.rows.blur, `at the begin ${JSON.stringify(begin)}`);
+  expect(begin.rows.delivered[0] === 0 && !begin.rows.blur, `the losses at the begin are ${JSON.stringify(begin)}`);
   await at(result.sim_time_s);
 }
 
 async function checkPoint(page) {
   const found = await findPoint(page, / · delivered · /);
-  if (found === null) return expect(false, 'no delivered point is to be found with the pointer');
+  if (found === null) return expect(false, 'the pointer finds no delivered point');
   const {at, index} = found;
   await page.mouse.click(...at);
   const shown = await page.$eval('#chosen', (element) => element.textContent);
   const [head, ...lines] = readFileSync(path.join(run, 'score.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
   const score = Number(lines[index][head.indexOf('score')]);
-  expect(shown.includes(score.toFixed(3)), `of point ${index} the page says ${shown}, and score.csv ${score}`);
+  expect(shown.includes(score.toFixed(3)), `the page shows ${shown} for point ${index}, and score.csv has ${score}`);
 }
 
 /** Draws random steps: the bars have no gaps, and each step that is at least a pixel wide has a bar with its value. */
@@ -72,7 +74,8 @@ function checkBars() {
     t.forEach((begin, i) => {
       const until = t[i + 1] ?? 100;
       const bar = bars.find(([from, to]) => from <= begin && begin < to);
-      if (until - begin >= 1) expect(bar?.[0] === begin && bar[1] === until && bar[2] === v[i], `of ${v[i]} from ${begin} to ${until} the bar is ${bar}`);
+      if (until - begin >= 1) expect(bar?.[0] === begin && bar[1] === until && bar[2] === v[i],
+          `the bar of the value ${v[i]} from ${begin} to ${until} is ${bar}`);
     });
   }
 }
@@ -95,7 +98,7 @@ for (const [width, scheme] of [[1400, 'light'], [390, 'dark']]) {
   await sleep(300);
   expect((await stateOf(page)).score === 0, 'there is a score at the begin');
   expect(await stage() !== end, 'the pictures of the begin and the end are the same');
-  expect((await page.evaluate(() => location.hash)).startsWith('#t=0'), 'the address does not hold the time');
+  expect((await page.evaluate(() => location.hash)).startsWith('#t=0'), 'the address does not contain the time');
   await page.keyboard.press('End');
   const tooWide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   expect(tooWide <= 0, `the page is ${tooWide} pixels too wide`);
@@ -112,7 +115,8 @@ const {page, complaints} = await openPage(browser, `${file}#t=20&uav=${name}&vie
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the replay');
 expect(await page.$eval('#chosen h2', (element) => element.textContent) === name, 'the address does not choose its UAV');
 expect((await page.$eval('#clock', (element) => element.textContent)) === '20.0 s', 'the address does not choose its time');
-expect((await page.evaluate(() => location.hash)).includes('view=camera'), 'the address was lost');
+expect((await page.evaluate(() => location.hash)).includes('view=camera'),
+    'the address no longer chooses the view of the camera');
 
 // All parts of each picture of a film show the same moment, however fast the pictures follow each other.
 const filmed = (seconds) => page.evaluate(async (at) => {
@@ -132,5 +136,5 @@ for (const [k, seconds] of moments.entries()) {
 expect(new Set(fast).size > 4, 'nothing moves in the film');
 
 for (const complaint of complaints)
-  expect(complaint.startsWith('asks for file://'), complaint);  // the page's own address, with another part after #
+  expect(complaint.startsWith('asks for file://'), complaint);  // the page's own address, with another fragment
 await endBrowser(browser);

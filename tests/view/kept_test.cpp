@@ -27,7 +27,7 @@ class KeptRun : public ViewTest {
   }
 };
 
-TEST_F(KeptRun, IsAFileThatShowsItWithoutAnyRequest) {
+TEST_F(KeptRun, IsShownByAFileThatMakesNoRequests) {
   const SkeinRun& done = run("done", joined(kKeptFlight, {"--seed", "3"}));
   const fs::path file = folder() / "flight.html";
   replay({done.dir(), "--export", file});
@@ -35,16 +35,17 @@ TEST_F(KeptRun, IsAFileThatShowsItWithoutAnyRequest) {
 
   // A flight of 600 s with five UAVs must fit into 4 MB; this one is a tenth as long.
   const std::uintmax_t script = fs::file_size(source_path("build/web/live.js"));
-  EXPECT_LT(fs::file_size(file) - script, (4'000'000 - script) / 10) << "of a minute";
+  EXPECT_LT(fs::file_size(file) - script, (4'000'000 - script) / 10)
+      << "the file of a flight of one minute is too large";
 
   const std::string before = text_of(file);
   EXPECT_NE(replay({done.dir(), "--export", file}, 2).err().find("--force"), std::string::npos);
   EXPECT_EQ(text_of(file), before);
   replay({done.dir(), "--export", file, "--force"});
-  EXPECT_EQ(text_of(file), before) << "the same run makes the same file";
+  EXPECT_EQ(text_of(file), before) << "the same run must give the same file";
 }
 
-TEST_F(KeptRun, RefusesWhatCannotBe) {
+TEST_F(KeptRun, RefusesInvalidOptions) {
   const SkeinRun& done =
       run("done", {"towers", "--planner", "hover", "--duration", "5", "--one-process", "--no-oracle", "--no-report"});
   EXPECT_NE(replay({done.dir(), "--export", folder() / "flight.avi"}, 2).err().find(".mp4"), std::string::npos);
@@ -64,7 +65,7 @@ TEST_F(KeptRun, RefusesWhatCannotBe) {
   EXPECT_FALSE(fs::exists(folder() / "flight.html") || fs::exists(folder() / "flight.mp4"));
 }
 
-TEST_F(KeptRun, MayBeTwoOnOneClock) {
+TEST_F(KeptRun, CanBeShownBesideAnotherOneOnOneClock) {
   const SkeinRun& a = run("a", joined(kKeptFlight, {"--no-oracle"}));
   const SkeinRun& b =
       run("b", {"towers", "--planner", "star", "--duration", "60", "--one-process", "--no-oracle", "--no-report"});
@@ -132,7 +133,7 @@ TEST_F(FilmOfARun, IsTheSameEachTime) {
     sums.insert(line.substr(line.rfind(' ')));
   }
   EXPECT_EQ(count, 5U);
-  EXPECT_GE(sums.size(), 4U) << "it moves";
+  EXPECT_GE(sums.size(), 4U) << "the pictures of the film are the same";
   EXPECT_NE(pictures.out().find("1280x720"), std::string::npos);
 }
 

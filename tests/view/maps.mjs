@@ -40,7 +40,8 @@ const moveTo = async (seconds) => {
 };
 const stage = async () => (await page.$('.stage')).screenshot({encoding: 'base64'});
 
-expect(await page.$eval('#clouds', (tools) => !tools.textContent.includes('--maps')), 'it says that maps in time are missing');
+expect(await page.$eval('#clouds', (tools) => !tools.textContent.includes('--maps')),
+    'the page says that the run has no maps over time');
 await page.select('#map-of', kUav);
 await waitUntil(note, (text) => /what it flies on/.test(text), 'a map');
 
@@ -60,12 +61,12 @@ for (const seconds of [9.5, 12, 19.9, 20, 25, 38, 45, 52, 60]) {
   const there = told.map.steps.filter(({t, until: end = Infinity}) => t <= seconds + 1e-6 && seconds + 1e-6 < end);
   const lengths = there.flatMap(({runs}) => unpackedRuns(runs).filter((_, i) => i % 4 === 3));
   const count = lengths.reduce((sum, length) => sum + length, 0);
-  expect(cubes === count, `at ${seconds} s there are ${cubes} cubes, and not ${count}`);
+  expect(cubes === count, `at ${seconds} s there are ${cubes} cubes instead of ${count}`);
 }
-expect(!isServed || told.map !== null, 'no viewer was told a map');
+expect(!isServed || told.map !== null, 'no map was sent to the page');
 expect(new Set(shown.map(({time}) => time)).size >= 4, `there are too few maps: ${JSON.stringify(shown)}`);
 const cubes = shown.map((one) => one.cubes);
-expect(cubes.at(-1) > 1.5 * cubes[0] && cubes[0] > 0, `it does not grow: ${cubes}`);
+expect(cubes.at(-1) > 1.5 * cubes[0] && cubes[0] > 0, `the map does not grow: ${cubes}`);
 
 // The map is visible.
 await moveTo(45);
@@ -73,9 +74,9 @@ const withMap = await stage();
 await page.select('#map-of', '');
 await sleep(300);
 const without = await stage();
-expect(withMap !== without, 'the map is not to be seen');
+expect(withMap !== without, 'the map is not visible');
 await page.select('#map-of', kUav);
 await sleep(300);
-expect(await stage() === withMap, 'the map is another one when it is chosen again');
+expect(await stage() === withMap, 'the map looks different when it is chosen again');
 for (const complaint of complaints) console.log(complaint);
 await endBrowser(browser);

@@ -23,11 +23,11 @@ class MapsInTime : public BrowserTest {
   }
 };
 
-TEST_F(MapsInTime, AreComputedAsTheRunWouldHaveKeptThem) {
+TEST_F(MapsInTime, AreComputedAfterwardsAsTheRunWouldHaveKeptThem) {
   const SkeinRun& done = run("done", kMappedFlight);
   const SkeinRun& kept = run("kept", joined(kMappedFlight, {"--keep-maps"}));
   EXPECT_EQ(done.digest(), kept.digest());
-  EXPECT_FALSE(fs::exists(maps_of(done.dir(), "jurong"))) << "nobody asked for them";
+  EXPECT_FALSE(fs::exists(maps_of(done.dir(), "jurong"))) << "the run kept maps without --keep-maps";
 
   ChildProcess& page = start_program("page", {program("skein"), "replay", done.dir(), "--maps"});
   ASSERT_TRUE(eventually([&] { return !door_in(page.out()).empty(); })) << page.err();
@@ -42,11 +42,11 @@ TEST_F(MapsInTime, AreComputedAsTheRunWouldHaveKeptThem) {
 
   const fs::path file = folder() / "flight.html";
   EXPECT_EQ(replay({done.dir(), "--maps", "--export", file}).err().find("flown again"), std::string::npos)
-      << "they are there already";
+      << "maps that exist already must not be computed again";
   look("maps", file, done.dir());
 }
 
-TEST_F(MapsInTime, AreNotShownWhereTheyWouldBeThoseOfAnotherRun) {
+TEST_F(MapsInTime, AreNotShownIfTheyWouldBeThoseOfAnotherRun) {
   const fs::path faults = write("faults.yaml", "faults:\n  - {at_s: 20, until_s: 25, kill: jurong}\n");
   const SkeinRun& done = run("done", {"towers", "--planner", "kios", "--duration", "40", "--one-process", "--no-oracle",
                                       "--no-report", "--faults", faults});
@@ -58,7 +58,7 @@ TEST_F(MapsInTime, AreNotShownWhereTheyWouldBeThoseOfAnotherRun) {
   write("faults.yaml", "faults:\n  - {at_s: 20, until_s: 25, kill: jurong}\n");
   replay({done.dir(), "--maps", "--export", file, "--force"});
   EXPECT_TRUE(fs::exists(maps_of(done.dir(), "jurong")));
-  EXPECT_TRUE(fs::exists(done.dir() / "maps-jurong.2.mcap")) << "of the program that was started again";
+  EXPECT_TRUE(fs::exists(done.dir() / "maps-jurong.2.mcap")) << "the maps of the restarted program are missing";
 
   const Arguments again = {"--maps", "--export", file, "--force"};
   std::ofstream(maps_of(done.dir(), "raffles")) << "damaged";

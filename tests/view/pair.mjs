@@ -26,16 +26,18 @@ results.forEach((result, k) => result.uavs.forEach(({name}) => {
 }));
 const note = await text('#pair');
 if (time === 'same') {
-  expect(note.includes('the same, step by step'), `of runs that are the same it says ${note}`);
+  expect(note.includes('the same, step by step'), `for runs that are the same, the page says ${note}`);
   expect(await page.$('.first-difference') === null, 'a difference is marked between runs that are the same');
 } else {
-  expect(note.includes(`First difference at ${Number(time).toFixed(2)} s`), `of a difference at ${time} it says ${note}`);
+  expect(note.includes(`First difference at ${Number(time).toFixed(2)} s`),
+      `for a difference at ${time} s, the page says ${note}`);
   const mark = await page.$eval('.first-difference', (element) => Number(element.style.getPropertyValue('--at')));
   const end = Math.max(...results.map(({sim_time_s: s}) => s));
   expect(Math.abs(mark - Number(time) / end) < 1e-3, `the mark is at ${mark} of the slider`);
   await page.click('#difference');
   await sleep(300);
-  expect(await text('#clock') === `${Number(time).toFixed(1)} s`, `a click on it leads to ${await text('#clock')}`);
+  expect(await text('#clock') === `${Number(time).toFixed(1)} s`,
+      `a click on the mark leads to ${await text('#clock')}`);
   await page.focus('#moment');
   await page.keyboard.press('End');
 }
@@ -49,11 +51,12 @@ for (const run of ['A', 'B']) {
   pictures.push(await stage());
   await page.click(`[data-run="${run}"]`);
 }
-expect(new Set(pictures).size === 3, `of the pictures of both, B and A ${new Set(pictures).size} differ`);
+expect(new Set(pictures).size === 3, `of the three pictures of both, B and A, only ${new Set(pictures).size} differ`);
 await sleep(300);
 expect(await stage() === pictures[0], 'A and B do not come back');
 await page.select('#points-of', '1');
 await sleep(300);
-expect((await stage() !== pictures[0]) === (time !== 'same'), 'the points of B look like those of A, or the same ones do not');
+expect((await stage() !== pictures[0]) === (time !== 'same'),
+    'the points of B look like those of A although they differ, or differ although they are the same');
 for (const complaint of complaints) expect(false, complaint);
 await endBrowser(browser);

@@ -21,11 +21,15 @@ function tallyOf(points) {
 const far = {distance: 0.15, tilt: 0.9, blur: 0.8}, askew = {distance: 0.9, tilt: 0.15, blur: 0.8};
 const blurred = {distance: 0.9, tilt: 0.8, blur: 0.15}, good = {distance: 0.9, tilt: 0.9, blur: 0.9};
 const {custody, tally} = tallyOf([far, askew, askew, blurred, blurred, blurred, good]);
-expect(JSON.stringify(tally.poor) === '{"distance":1,"tilt":2,"blur":3}', `it counts ${JSON.stringify(tally.poor)}`);
+expect(JSON.stringify(tally.poor) === '{"distance":1,"tilt":2,"blur":3}',
+    `the tally of poor points is ${JSON.stringify(tally.poor)}`);
 expect(tally.states.poor.points === 6 && tally.states.carried.points === 1, `states: ${JSON.stringify(tally.states)}`);
 const early = custody.tallyAt(2).poor;
-expect(JSON.stringify(early) === '{"distance":1,"tilt":2,"blur":0}', `after 2 s it counts ${JSON.stringify(early)}`);
+expect(JSON.stringify(early) === '{"distance":1,"tilt":2,"blur":0}',
+    `after 2 s, the tally of poor points is ${JSON.stringify(early)}`);
 custody.take({t: 9, u: 0, c: 9, p: [0, ...told(good)]});
 expect(custody.tallyAt(10).poor.distance === 0, 'a point that a later capture shows well is still counted as poor');
-expect(weakestPart(custody.custody(3, 10).taken) === 'blur', 'it does not tell the part of a chosen point');
-expect(weakestPart({blur: 0, res: 0, distance: 0.9}) === 'blur', 'a picture that is all blur lacks no resolution');
+expect(weakestPart(custody.custody(3, 10).taken) === 'blur',
+    'the page does not name the weakest part of a chosen point');
+expect(weakestPart({blur: 0, res: 0, distance: 0.9}) === 'blur',
+    'a picture that is fully blurred must not count as one without resolution');

@@ -26,5 +26,5 @@ await letGo(page);
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
 const {score} = await stateOf(page);
 const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
-expect(score === result.score, `the score is ${score}, and in result.json ${result.score}`);
+expect(score === result.score, `the score is ${score}, but ${result.score} in result.json`);
 await endBrowser(browser);

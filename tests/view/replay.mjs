@@ -28,14 +28,14 @@ const picture = async (browser, page) => {
 
 async function checkPoint(page) {
   const found = await findPoint(page, / · delivered · /);
-  if (found === null) return expect(false, 'no delivered point is to be found with the pointer');
+  if (found === null) return expect(false, 'the pointer finds no delivered point');
   await page.mouse.click(...found.at);
   const shown = await page.$eval('#chosen', (element) => element.textContent);
   const best = rows('captures.csv').filter((row) => Number(row.point) === found.index && row.delivered_at_s !== '')
                    .sort((a, b) => Number(b.q) - Number(a.q))[0];
   expect(best !== undefined, `captures.csv has no delivered capture of point ${found.index}`);
   for (const word of [`Point ${found.index}`, Number(best?.q).toFixed(3), best?.uav])
-    expect(shown.includes(word), `of point ${found.index} the page says ${shown}, without ${word}`);
+    expect(shown.includes(word), `the page shows ${shown} for point ${found.index}, without ${word}`);
 }
 
 async function checkSlider(page, browser) {
@@ -62,7 +62,7 @@ async function checkKeyboard(page) {
   const name = await page.$eval('#chosen h2', (element) => element.textContent);
   expect(result.uavs.some((uav) => uav.name === name), `the keyboard chose '${name}'`);
   await page.keyboard.press('Escape');
-  expect(await page.$eval('#chosen', (element) => element.hidden), 'Escape does not let go');
+  expect(await page.$eval('#chosen', (element) => element.hidden), 'Escape does not end the choice of a UAV');
 }
 
 /** Score by UAV, from the station's captures.csv. */
@@ -80,7 +80,8 @@ for (const [width, scheme] of [[1400, 'light'], [1400, 'dark'], [800, 'light'], 
   const {score, shown} = await stateOf(page);
   expect(score === result.score && shown === result.score.toFixed(3), `the score is ${shown}, not ${result.score}`);
   const whole = await look(browser, page, await page.screenshot({encoding: 'base64'}));
-  expect(scheme === 'dark' ? whole.brightness < 0.4 : whole.brightness > 0.6, `has a brightness of ${whole.brightness}`);
+  expect(scheme === 'dark' ? whole.brightness < 0.4 : whole.brightness > 0.6,
+      `the page has a brightness of ${whole.brightness}`);
   const stage = await picture(browser, page);
   expect(stage.colours > 60 && stage.largest < 0.97, `the scene is blank: ${JSON.stringify({...stage, png: ''})}`);
   const tooWide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
@@ -102,7 +103,7 @@ await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'the 
 await page.focus('#moment');
 await page.keyboard.press('Home');
 await sleep(300);
-expect((await stateOf(page)).score === 0, 'the slider does not go to the begin');
+expect((await stateOf(page)).score === 0, 'the slider does not move to the begin');
 expect(await page.$('#fleet tbody tr') !== null, 'the fleet is missing');
 for (const complaint of complaints) expect(false, complaint);
 await endBrowser(browser);

@@ -31,7 +31,7 @@ class StalledBrowsers : public ViewTest {
   const FreePort port_;
 };
 
-TEST_F(StalledBrowsers, NeitherHoldTheRunUpNorChangeIt) {
+TEST_F(StalledBrowsers, NeitherDelayTheRunNorChangeIt) {
   const Arguments flight = {"towers", "--planner", "kios", "--duration", "30", "--no-oracle", "--no-report"};
   const std::string unseen = run("unseen", joined(flight, {"--one-process"})).digest();
   for (const Arguments& how : {Arguments{"--one-process"}, Arguments{}}) {
@@ -39,7 +39,7 @@ TEST_F(StalledBrowsers, NeitherHoldTheRunUpNorChangeIt) {
                            joined(joined(flight, how), {"--view", port_.text(), "--view-close", "--speed", "max"}));
     const std::string key = key_beside(door_of(seen));
     std::list<Wire> stalled;
-    for (int i = 0; i < 40; ++i) {  // they are accepted, and then stop reading
+    for (int i = 0; i < 40; ++i) {  // the station accepts these clients, which then stop reading
       stalled.emplace_back(port()).send(follow(key));
       stalled.back().until([](const std::string& text) { return text.find("101") != std::string::npos; });
     }

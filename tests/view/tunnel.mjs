@@ -29,7 +29,7 @@ for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
   page.on('console', (message) => message.type() === 'error' && complaints.push(`console: ${message.text()}`));
   page.on('pageerror', (error) => complaints.push(`error: ${error.message}`));
   await page.goto(`http://${host}/`, {waitUntil: 'load'});
-  expect(await page.$('#flight') === null, `${host} shows the run to who has no key`);
+  expect(await page.$('#flight') === null, `${host} shows the run to a browser without the key`);
   await page.type('input[name=key]', '0'.repeat(64));
   await page.keyboard.press('Enter');
   await page.waitForSelector('[role=alert]');
@@ -38,7 +38,8 @@ for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
   await page.keyboard.press('Enter');
   await page.waitForSelector('#score');
   await until(page, ({state, live, tick}) => state === 'paused' && live === 'yes' && tick > 0, 'it follows');
-  expect(page.url() === `http://${host}/` || page.url().startsWith(`http://${host}/#`), `it ended at ${page.url()}`);
+  expect(page.url() === `http://${host}/` || page.url().startsWith(`http://${host}/#`),
+      `the login led to ${page.url()}`);
   for (const complaint of complaints) console.log(complaint);
   await page.close();
 }

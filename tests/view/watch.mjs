@@ -13,7 +13,7 @@ const expect = (good, what) => good || console.log(what);
 const kStep = 20;  // ticks per exchange
 
 const begins = await pausedByItself(page);
-expect(begins.tick === 0, `it paused at tick ${begins.tick}`);
+expect(begins.tick === 0, `the run paused at tick ${begins.tick}`);
 await letGo(page);
 await until(page, ({tick}) => tick > 0, 'it flies');
 await page.click('#pause');
@@ -28,7 +28,7 @@ for (let step = 1; step <= 3; ++step) {
   expect(after.tick === held.tick + kStep * step, `step ${step} went from ${held.tick} to ${after.tick}`);
 }
 await sleep(500);
-expect((await stateOf(page)).tick === held.tick + 3 * kStep, 'it went on after a step');
+expect((await stateOf(page)).tick === held.tick + 3 * kStep, 'the run continued after a step');
 
 // The page shows the attainable score with the next step after the oracle has computed it.
 const losses = await waitUntil(async () => {
@@ -36,10 +36,10 @@ const losses = await waitUntil(async () => {
   await sleep(200);
   return lossesOf(page);
 }, () => true, 'losses are told');
-expect(losses?.when === 'so far' && addsUp(losses), `of losses it tells ${JSON.stringify(losses)}`);
+expect(losses?.when === 'so far' && addsUp(losses), `the page shows the losses ${JSON.stringify(losses)}`);
 const stepped = await stateOf(page);
-// Taken while the run is paused: Chromium never answers a request for a picture of a page that reloads meanwhile, as
-// this page does when the run ends.
+// The picture is taken while the run is paused. The page reloads when the run ends, and Chromium never answers a
+// request for a picture of a page that reloads meanwhile.
 expect(await page.screenshot({encoding: 'base64'}) !== before, 'the picture has not changed');
 
 // The keyboard alone resumes the run, and the chosen speed takes effect.
@@ -48,12 +48,12 @@ await page.keyboard.press('Escape');
 await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.press('p');
 const later = await until(page, ({tick, state}) => state !== 'paused' && tick > stepped.tick + 200 * kStep, 'it goes on');
-expect(later.events > 0, 'no event is told');
+expect(later.events > 0, 'the page shows no event');
 
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
 const replay = await stateOf(page);
 const result = JSON.parse(readFileSync(path.join(run, 'result.json'), 'utf8'));
-expect(replay.score === result.score, `the score is ${replay.score}, and in result.json ${result.score}`);
+expect(replay.score === result.score, `the score is ${replay.score}, but ${result.score} in result.json`);
 expect(replay.shown === result.score.toFixed(3), `the score shown is ${replay.shown}`);
 expect(result.score > 0, 'nothing was scored: that proves little');
 const lost = await lossesOf(page);

@@ -44,12 +44,12 @@ std::size_t listeners_of(pid_t pid) {
 
 class WatchedRun : public ViewTest {};
 
-TEST_F(WatchedRun, HasTheDigestOfOneThatIsNotWatched) {
+TEST_F(WatchedRun, HasTheDigestOfARunThatIsNotWatched) {
   const SkeinRun& unseen = run("unseen", joined(kShort, {"--one-process"}));
   const std::string activity = text_of(unseen.dir() / "activity.csv");
   for (const std::string& uav : kFleet) EXPECT_NE(activity.find("," + uav + ",takes off,"), std::string::npos) << uav;
   EXPECT_NE(activity.find(",changi,on the ground,,,,jurong,\n"), std::string::npos)
-      << "it starts beside it: " << activity;
+      << "changi must report that it waits for jurong, which starts beside it: " << activity;
   const auto expect_same = [&](const std::string& name, const Arguments& how) {
     const SkeinRun& seen = run(name, joined(kShort, how));
     EXPECT_EQ(seen.digest(), unseen.digest()) << name;
@@ -61,14 +61,15 @@ TEST_F(WatchedRun, HasTheDigestOfOneThatIsNotWatched) {
   expect_same("dds8", {"--view", "--view-close", "--dds", "fastdds"});
 }
 
-TEST_F(WatchedRun, ListensAtTheStationAndForItsReplayAlone) {
-  SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "0.5"}));  // it must not end before the check
+TEST_F(WatchedRun, OpensPortsOnlyAtItsStationAndForItsReplay) {
+  SkeinRun& seen = start(
+      "seen", joined(kShort, {"--view", "--speed", "0.5"}));  // slow, so that the run does not end before the check
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
   for (const auto& [name, pid] : processes_of(seen.dir())) {
     EXPECT_EQ(listeners_of(pid), name == "station" || name == "skein" ? 1U : 0U) << name;
   }
   seen.skein().signal(SIGINT);
-  EXPECT_EQ(seen.exit_code(), 130) << "who interrupts a run has seen enough: " << seen.err();
+  EXPECT_EQ(seen.exit_code(), 130) << "an interrupted run must end without a replay: " << seen.err();
 
   SkeinRun& unseen = start("unseen", kShort);
   ASSERT_TRUE(unseen.wait_until_flying()) << unseen.err();
@@ -81,21 +82,21 @@ TEST_F(WatchedRun, EndsWithItsOwnExitCodeWhenItsReplayDoes) {
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
   ::kill(processes_of(seen.dir()).at("uav_agent-changi"), SIGKILL);
   ASSERT_TRUE(seen.wait_for("replay")) << seen.err();
-  EXPECT_TRUE(fs::exists(seen.dir() / "result.json")) << "results are there before the page is left";
+  EXPECT_TRUE(fs::exists(seen.dir() / "result.json")) << "results must exist before the user leaves the page";
   EXPECT_TRUE(fs::exists(door_of(seen)));
   EXPECT_EQ(seen.skein().ended(), std::nullopt);
   seen.skein().signal(SIGINT);
   EXPECT_EQ(seen.exit_code(), 3);
-  EXPECT_FALSE(fs::exists(door_in(seen.err()).parent_path())) << "the key's folder stays";
+  EXPECT_FALSE(fs::exists(door_in(seen.err()).parent_path())) << "the folder with the key was not deleted";
 }
 
 // At a tenth of real time, the factor would be 0.1 if paused time counted; without it, the factor is much greater.
-TEST_F(WatchedRun, HeldTimeIsNoTimeOfTheRun) {
+TEST_F(WatchedRun, PausedTimeDoesNotCountAsTimeOfTheRun) {
   const Arguments slow = {"--one-process", "--stop-at", "0.5", "--view", "--view-close", "--speed", "0.1"};
   EXPECT_GT(run("slow", joined(kShort, slow)).result()["real_time_factor"].get<double>(), 0.2);
 }
 
-TEST_F(WatchedRun, RefusesWhatCannotBe) {
+TEST_F(WatchedRun, RefusesInvalidOptionsAndAPortInUse) {
   run("clock", joined(kShort, {"--view", "--speed", "2", "--clock", "realtime"}), {}, 2);
   run("speed", joined(kShort, {"--view", "--speed", "0.01"}), {}, 2);
   run("unwatched", joined(kShort, {"--speed", "2"}), {}, 2);
