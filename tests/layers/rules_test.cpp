@@ -287,7 +287,7 @@ TEST_F(MadeUpTree, FoldersThatIncludeEachOtherAreFound) {
   file("station/top.cpp", include("station/b/x.hpp"));
   file("station/b/x_test.cpp", include("station/a/x.hpp"));
   EXPECT_EQ(check_circles(tree()), Violations{});
-  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // via station/top.hpp
+  file("station/b/y.cpp", std::string("\n") + include("station/top.hpp"));  // via the file beside the folders
   EXPECT_EQ(places(check_circles(tree())), (Places{"station/b/y.cpp:2", "station/top.cpp:1"}));
 }
 
