@@ -80,7 +80,8 @@ TEST_F(Isolation, AUavSeesItsOwnDomainAndNothingElse) {
   const std::string spy = flying(run, kAgent);
   std::string addresses, names = "station";
   for (const std::string& address : foreign_addresses(run)) addresses += " " + address;
-  EXPECT_EQ(words(addresses).size(), 2u * 6u + 2u + 4u) << "of server, router, station and UAVs: " << addresses;
+  EXPECT_EQ(words(addresses).size(), 2u * 6u + 2u + 4u)
+      << "addresses of server, router, station and UAVs: " << addresses;
   // The address of each network's gateway, which would be this host, also in the spy's own network.
   for (const std::string& network :
        words(shell("docker network ls --quiet --filter label=com.docker.compose.project=" + project(run)).text)) {

@@ -57,7 +57,7 @@ TEST(OwnAddress, IsTheLoopbackOrTheAddressOfAnInterface) {
   EXPECT_TRUE(own(127, 0, 0, 1));
   EXPECT_TRUE(own(127, 8, 8, 8));
   EXPECT_FALSE(own(203, 0, 113, 77)) << "this address is reserved for documentation";
-  EXPECT_FALSE(own(239, 255, 0, 1)) << "a group is not a host";
+  EXPECT_FALSE(own(239, 255, 0, 1)) << "a multicast group is not an address of this host";
 }
 
 }  // namespace

@@ -233,7 +233,7 @@ TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
 
   std::vector<std::vector<std::uint64_t>> sent;
   for (const auto& member : members_) sent.push_back(member->sent_);
-  EXPECT_EQ(sent[0].front(), 3U) << "asked in step 2, open in step 3, however long discovery took";
+  EXPECT_EQ(sent[0].front(), 3U) << "a topic that is requested in step 2 must be open in step 3";
   EXPECT_EQ(sent[1].front(), 3U);
   EXPECT_TRUE(sent[2].empty()) << "this member never asked to send";
   for (std::size_t node = 0; node < kNodes.size(); ++node) {
@@ -241,7 +241,8 @@ TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
       const auto must = expected(node, topic, sent);
       const auto& heard = members_[node]->heard_[topic];
       ASSERT_EQ(heard.size(), must.size()) << topic << " at " << kNodes[node];
-      for (std::size_t i = 0; i < must.size(); ++i) EXPECT_TRUE(heard[i] == must[i]) << topic << " number " << i;
+      for (std::size_t i = 0; i < must.size(); ++i)
+        EXPECT_TRUE(heard[i] == must[i]) << "message " << i << " on " << topic;
     }
   }
   EXPECT_EQ(back, 0) << "the sender's domain got its own messages as arrivals";

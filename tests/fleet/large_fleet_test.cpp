@@ -35,7 +35,8 @@ TEST_F(LargeFleet, ResultsListLinksThatHadLineOfSight) {
   const std::size_t table = page.find("data-table=\"links\"");
   ASSERT_NE(table, std::string::npos);
   const std::string links_table = page.substr(table, page.find("</table>", table) - table);
-  EXPECT_LT(links_table.size(), std::size_t{200 * (kUavs + 2)}) << "a row for each sender, not a cell for each link";
+  EXPECT_LT(links_table.size(), std::size_t{200 * (kUavs + 2)})
+      << "the table must have a row for each sender, not for each link";
   EXPECT_NE(links_table.find("<td>gcs</td>"), std::string::npos);
 
   EXPECT_EQ(fly("two", "2").digest(), flown.digest());

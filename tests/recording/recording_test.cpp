@@ -77,7 +77,7 @@ TEST_F(Recording, IsIdenticalOverDdsAndInOneProcess) {
   SkeinRun& one_process = run("one_process", with({"--one-process"}));
   SkeinRun& without = run("without", with({"--one-process", "--record=none"}));
   ASSERT_GT(fs::file_size(file(over_dds)), 10'000U);
-  EXPECT_TRUE(text_of(file(over_dds)) == text_of(file(one_process))) << "they differ";
+  EXPECT_TRUE(text_of(file(over_dds)) == text_of(file(one_process))) << "the recordings differ";
   EXPECT_EQ(over_dds.digest(), without.digest()) << "recording changed the run";
   EXPECT_FALSE(fs::exists(file(without)));
   for (const SkeinRun* run : {&over_dds, &one_process, &without}) {
@@ -133,7 +133,7 @@ TEST_F(Recording, LosesNothingWhenAFaultKillsARecordingProgram) {
     arguments.push_back("--one-process");
     SkeinRun& one_process = run(program + "_one", arguments);
     EXPECT_EQ(over_dds.digest(), one_process.digest());
-    EXPECT_TRUE(text_of(file(over_dds)) == text_of(file(one_process))) << "they differ";
+    EXPECT_TRUE(text_of(file(over_dds)) == text_of(file(one_process))) << "the recordings differ";
     const Recorded recorded(file(over_dds));
     EXPECT_TRUE(recorded.complete);
     EXPECT_GT(recorded.last_s, 40.0);

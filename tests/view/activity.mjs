@@ -46,7 +46,7 @@ await page.keyboard.press('Escape');
 await letGo(page);
 process.kill(Number(pid), 'SIGSTOP');
 try {
-  const waits = await until(page, ({state}) => state === 'waits', `it waits for ${uav}`);
+  const waits = await until(page, ({state}) => state === 'waits', `the run waits for ${uav}`);
   const text = await page.$eval('#state', (element) => element.textContent);
   expect(text === `waits for ${uav} (to answer)`, `the page says '${text}' while the run waits for ${uav}`);
   await sleep(1000);
@@ -56,7 +56,7 @@ try {
 } finally {
   process.kill(Number(pid), 'SIGCONT');
 }
-await until(page, ({state, tick}) => state === 'flies' && tick > held.tick + kTicks, 'it flies on');
+await until(page, ({state, tick}) => state === 'flies' && tick > held.tick + kTicks, 'the run flies on');
 await page.select('#speed', 'max');
 await until(page, ({state, live: drawn}) => state === 'replay' && drawn === 'yes', 'its replay');
 await page.$eval('#moment', (slider, seconds) => {

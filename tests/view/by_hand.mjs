@@ -25,7 +25,7 @@ async function step() {
 await pausedByItself(page);
 await letGo(page);
 await page.click('#pause');
-await until(page, ({state}) => state === 'paused', 'it is paused by its button');
+await until(page, ({state}) => state === 'paused', 'the run is paused by the button');
 
 // Cuts a link with the keyboard: the page marks it until the next step, then shows it as cut; the other direction
 // stays.
@@ -49,16 +49,16 @@ await waitUntil(() => look(kill), ({text}) => text.includes('Cancel'), 'the kill
 expect((await look('#uav-faults button[data-fault="pause"]')).disabled,
     'the button to pause a killed program is enabled');
 await page.click(kill);
-await waitUntil(() => look(kill), ({pressed}) => pressed === 'false', 'it is cancelled');
+await waitUntil(() => look(kill), ({pressed}) => pressed === 'false', 'the kill is cancelled');
 // This time the fault begins; afterwards the program is started again.
 await page.click(kill);
 await waitUntil(() => look(kill), ({pressed}) => pressed === 'true', 'the kill waits again');
 await step();
 await step();
-await waitUntil(() => look(kill), ({text}) => text.includes('Restart'), 'it is killed');
+await waitUntil(() => look(kill), ({text}) => text.includes('Restart'), 'the program is killed');
 await page.click('#uav-faults button[data-fault="camera_failure"]');
 await page.click(kill);
-await waitUntil(() => look(kill), ({text}) => text.includes('Kill'), 'it starts again');
+await waitUntil(() => look(kill), ({text}) => text.includes('Kill'), 'the program starts again');
 await step();
 await waitUntil(faults, (texts) => texts.some((text) => /killed.*changi.*\d to \d/.test(text)), 'the kill is in the list as over');
 
@@ -69,17 +69,17 @@ await waitUntil(() => look(cell(4, 0)), ({title}) => title.includes('Click to cu
 await page.evaluate(() => document.querySelector('#uav-faults button[data-fault="motor_failure"]').click());
 await waitUntil(faults, (texts) => texts.some((text) => text.includes('rotor weak')), 'a rotor is to be weak');
 await page.evaluate(() => document.querySelector('#uav-faults button[data-fault="motor_failure"]').click());
-await waitUntil(() => page.$eval('#faults .refused', ({textContent}) => textContent), (text) => text.includes('rotor 0 of changi has a fault'), 'it says why it refuses');
+await waitUntil(() => page.$eval('#faults .refused', ({textContent}) => textContent), (text) => text.includes('rotor 0 of changi has a fault'), 'the page says why it refuses');
 await page.evaluate(() => document.querySelector('#faults ol li.waits button').click());
 await waitUntil(faults, (texts) => !texts.some((text) => text.includes('rotor weak')), 'the rotor is left alone');
 
 await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.press('p');
-await until(page, ({state}) => state === 'flies', 'it goes on');
+await until(page, ({state}) => state === 'flies', 'the run continues');
 await page.$eval('#faults button[data-fault="kill"][data-of="comm_router"]', (button) => button.click());
 await waitUntil(() => look('#faults button[data-fault="kill"][data-of="comm_router"]'), ({text}) => text.includes('Restart'), 'the router is killed');
 await page.$eval('#faults button[data-fault="kill"][data-of="comm_router"]', (button) => button.click());
-await waitUntil(() => look('#faults button[data-fault="kill"][data-of="comm_router"]'), ({text}) => text.includes('Kill'), 'it starts again');
+await waitUntil(() => look('#faults button[data-fault="kill"][data-of="comm_router"]'), ({text}) => text.includes('Kill'), 'the program starts again');
 await page.select('#speed', 'max');
 
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');

@@ -95,7 +95,7 @@ expect(beside < share / 2,
 
 // Each choice changes the picture. The run is paused, so that nothing else changes it.
 await press('pause');
-await until(page, ({state}) => state === 'paused', 'it is paused');
+await until(page, ({state}) => state === 'paused', 'the run is paused');
 await sleep(1500);  // for messages that were sent before the pause
 expect(/LiDAR points, the newest of .* jurong: what it flies on/.test(await note()), `the page says ${await note()}`);
 const both = await stage();

@@ -31,8 +31,8 @@ await page.click('#take');
 const taken = await wait(({title}) => title === `You fly ${uav}`, 'the controls are taken');
 expect(taken.chosen === uav, `the page follows ${taken.chosen}`);
 await page.keyboard.down('r');
-await wait(({wanted}) => wanted.startsWith('up'), 'it is told to climb');
-await wait(({facts}) => Number.parseFloat(facts.position.split(',')[2]) > 6, 'it climbs');
+await wait(({wanted}) => wanted.startsWith('up'), 'the key commands the UAV to climb');
+await wait(({facts}) => Number.parseFloat(facts.position.split(',')[2]) > 6, 'the UAV climbs');
 await page.keyboard.up('r');
 await wait(({wanted}) => wanted === 'rest', 'the key is up');
 const top = await position();
@@ -44,11 +44,11 @@ const away = ({facts}) => {
   return Math.hypot(x - top[0], y - top[1]);
 };
 await page.keyboard.down('w');
-await wait((now) => away(now) > 1, 'it flies ahead');
+await wait((now) => away(now) > 1, 'the UAV flies ahead');
 await page.keyboard.down('q');
-await wait(({wanted}) => wanted.includes('ahead') && wanted.includes('turn left'), 'it flies ahead and turns');
+await wait(({wanted}) => wanted.includes('ahead') && wanted.includes('turn left'), 'the UAV flies ahead and turns');
 await shoot('flying');
-await wait((now) => away(now) > 3, 'it is 3 m from there');
+await wait((now) => away(now) > 3, 'the UAV is 3 m from there');
 await page.evaluate(() => dispatchEvent(new Event('blur')));
 await wait(({wanted}) => wanted === 'rest', 'the UAV rests while the page has no focus');
 await page.keyboard.up('w');
@@ -61,7 +61,7 @@ await page.evaluate(() => {
   speed.dispatchEvent(new Event('input'));
 });
 await page.keyboard.down('ArrowLeft');
-await wait(({wanted}) => wanted === 'left 1.0 m/s', 'it flies left at the speed of the slider');
+await wait(({wanted}) => wanted === 'left 1.0 m/s', 'the UAV flies left at the speed of the slider');
 await page.keyboard.up('ArrowLeft');
 await wait(({wanted}) => wanted === 'rest', 'the UAV rests when the arrow key is released');
 await page.keyboard.press('Escape');
@@ -84,7 +84,7 @@ await wait(({wanted}) => wanted === 'rest', 'the UAV rests when the stick is rel
 await page.select('#speed', '8');
 await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.down('d');
-await wait(({wanted}) => wanted === 'right 1.0 m/s', 'it flies to the right');
+await wait(({wanted}) => wanted === 'right 1.0 m/s', 'the UAV flies to the right');
 for (const complaint of complaints) console.log(complaint);
 // The browser dies without closing the connection.
 browser.process().kill('SIGKILL');

@@ -58,12 +58,12 @@ export const until = (page, holds, what) => waitUntil(() => stateOf(page), holds
 
 /** Waits until the run pauses by itself (--pause-at), so that it does not end before a slow browser is ready. */
 export const pausedByItself = (page) =>
-  until(page, ({state, live}) => state === 'paused' && live === 'yes', 'it pauses by itself');
+  until(page, ({state, live}) => state === 'paused' && live === 'yes', 'the run pauses by itself');
 
 /** Lets a paused run go on. */
 export async function letGo(page) {
   await page.click('#pause');
-  return until(page, ({state}) => state === 'flies', 'it goes on');
+  return until(page, ({state}) => state === 'flies', 'the run continues');
 }
 
 /** Searches the scene with the pointer for a point whose tip matches. @returns its place on the screen; null: none. */

@@ -14,7 +14,7 @@ let loads = 0;
 page.on('load', () => ++loads);
 await pausedByItself(page);
 await letGo(page);
-await until(page, ({state, tick}) => state === 'flies' && tick > kKilled, 'it flies on after the station is back');
+await until(page, ({state, tick}) => state === 'flies' && tick > kKilled, 'the run flies on after the station is back');
 await page.click('#pause');  // so that the run does not end before the events are read
 expect(loads === 1, `the page was loaded ${loads} times`);
 const told = () => page.$$eval('#events li', (all) => all.map((li) => li.textContent).join('\n'));

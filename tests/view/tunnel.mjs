@@ -37,7 +37,8 @@ for (const host of [`localhost:${port}`, `127.0.0.1:${port}`]) {
   await page.type('input[name=key]', key);
   await page.keyboard.press('Enter');
   await page.waitForSelector('#score');
-  await until(page, ({state, live, tick}) => state === 'paused' && live === 'yes' && tick > 0, 'it follows');
+  await until(page, ({state, live, tick}) => state === 'paused' && live === 'yes' && tick > 0,
+      'the page follows the run');
   expect(page.url() === `http://${host}/` || page.url().startsWith(`http://${host}/#`),
       `the login led to ${page.url()}`);
   for (const complaint of complaints) console.log(complaint);

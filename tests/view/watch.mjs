@@ -15,9 +15,9 @@ const kStep = 20;  // ticks per exchange
 const begins = await pausedByItself(page);
 expect(begins.tick === 0, `the run paused at tick ${begins.tick}`);
 await letGo(page);
-await until(page, ({tick}) => tick > 0, 'it flies');
+await until(page, ({tick}) => tick > 0, 'the run flies');
 await page.click('#pause');
-const held = await until(page, ({state}) => state === 'paused', 'it is paused');
+const held = await until(page, ({state}) => state === 'paused', 'the run is paused');
 const before = await page.screenshot({encoding: 'base64'});
 await sleep(1500);
 const still = await stateOf(page);
@@ -47,7 +47,8 @@ await page.select('#speed', 'max');
 await page.keyboard.press('Escape');
 await page.evaluate(() => document.activeElement.blur());
 await page.keyboard.press('p');
-const later = await until(page, ({tick, state}) => state !== 'paused' && tick > stepped.tick + 200 * kStep, 'it goes on');
+const later = await until(page, ({tick, state}) => state !== 'paused' && tick > stepped.tick + 200 * kStep,
+    'the run continues');
 expect(later.events > 0, 'the page shows no event');
 
 await until(page, ({state, live}) => state === 'replay' && live === 'yes', 'its replay');
