@@ -73,7 +73,7 @@ class KeptMapsTest : public testing::Test {
   const OccupancyMap none_;
 };
 
-TEST_F(KeptMapsTest, AreWhatItWasWhenItHadChangedAndAtTheEnd) {
+TEST_F(KeptMapsTest, ShowTheMapWheneverItHadChangedAndAtTheEnd) {
   KeptMaps kept(folder_, "a", 10 * kSecond);
   std::vector<Snapshot> expected = fly(kept);
   ASSERT_EQ(expected.size(), 7U);
@@ -83,7 +83,7 @@ TEST_F(KeptMapsTest, AreWhatItWasWhenItHadChangedAndAtTheEnd) {
   EXPECT_FALSE(fs::exists(folder_ / run_folder::maps_file("a", 1)));
 }
 
-TEST_F(KeptMapsTest, OfTheSameFlightAreTheSameBytesAndAnotherPart) {
+TEST_F(KeptMapsTest, OfTheSameFlightHaveTheSameBytesInAnotherFile) {
   for (int life = 0; life < 2; ++life) {
     KeptMaps kept(folder_, "a", 10 * kSecond);
     fly(kept);
@@ -103,7 +103,7 @@ TEST_F(KeptMapsTest, AreInTheFileWhenTheProgramDies) {
   }
 }
 
-TEST_F(KeptMapsTest, AreThoseOfKeyFramesWhereItFliesOnThem) {
+TEST_F(KeptMapsTest, ShowTheMapOfKeyFramesIfTheUavFliesByIt) {
   OccupancyMap map;
   KeptMaps kept(folder_, "a", kSecond);
   for (int step = 0; step <= 5; ++step) {
@@ -115,7 +115,7 @@ TEST_F(KeptMapsTest, AreThoseOfKeyFramesWhereItFliesOnThem) {
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].tick, kSecond);
   EXPECT_EQ(found[1].tick, 4 * kSecond);
-  EXPECT_EQ(found[2].tick, 5 * kSecond) << "of the end";
+  EXPECT_EQ(found[2].tick, 5 * kSecond) << "the snapshot of the end";
   EXPECT_NE(found[0].bytes, found[1].bytes);
   EXPECT_EQ(found[1].bytes, found[2].bytes);
 }
@@ -126,7 +126,7 @@ TEST_F(KeptMapsTest, LeaveNoFileOfAUavThatNeverTookAStep) {
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(KeptMapsTest, EndWhereTheDiskRefuses) {
+TEST_F(KeptMapsTest, EndWithAnErrorThatNamesTheFileWhenItCannotBeWritten) {
   KeptMaps nowhere(folder_ / "none", "a", kSecond);
   fly(nowhere);
   EXPECT_NE(nowhere.write_error().find("maps-a.mcap"), std::string::npos) << nowhere.write_error();
@@ -142,7 +142,7 @@ TEST_F(KeptMapsTest, EndWhereTheDiskRefuses) {
   ::signal(SIGXFSZ, handler);
   EXPECT_NE(kept.write_error().find("maps-a.mcap"), std::string::npos) << kept.write_error();
   EXPECT_LE(fs::file_size(folder_ / "maps-a.mcap"), 6000U);
-  EXPECT_FALSE(snapshots(0, false).empty()) << "it has those for which there was room";
+  EXPECT_FALSE(snapshots(0, false).empty()) << "the file has the snapshots for which there was room";
 }
 
 }  // namespace

@@ -29,13 +29,13 @@ TEST(Payload, NumbersComeBackAsTheyWent) {
   EXPECT_TRUE(reader.at_end());
 }
 
-TEST(Payload, PastTheEndThereAreZerosAndItShows) {
+TEST(Payload, ReadingPastTheEndGivesZerosAndIsReported) {
   PayloadWriter writer;
   writer.u8(7);
   PayloadReader reader(writer.data());
   EXPECT_EQ(reader.u32(), 0U);
   EXPECT_FALSE(reader.ok());
-  EXPECT_EQ(reader.u8(), 0U) << "nor does it recover";
+  EXPECT_EQ(reader.u8(), 0U) << "all further reads fail, too";
   EXPECT_FALSE(reader.ok());
 }
 
@@ -54,7 +54,7 @@ TEST(Payload, AnotherTypeSenderOrTopicIsNotOpened) {
   EXPECT_FALSE(open_payload(message, "kios/2", 5));
   EXPECT_FALSE(open_payload(message, "kios/", 5));
   EXPECT_FALSE(open_payload(message, "star/1", 5));
-  EXPECT_FALSE(open_payload(message, "kios/1", 3)) << "no such UAV";
+  EXPECT_FALSE(open_payload(message, "kios/1", 3)) << "a fleet of three has no UAV 3";
   RadioMessage elsewhere = message;
   elsewhere.topic = "/broadcast";
   EXPECT_FALSE(open_payload(elsewhere, "kios/1", 5));
@@ -66,7 +66,7 @@ TEST(Payload, OfManyMessagesThoseOfThePlannerAreOpenedInOrder) {
     radio.push_back(send_payload("star/1", sender, all_bytes()));
     radio.push_back(send_payload("kios/1", sender, PayloadWriter().u8(sender).u16(500)));
   }
-  radio[3].text.pop_back();  // the one of UAV 0 is damaged
+  radio[3].text.pop_back();  // the message of UAV 0 is damaged
   const std::vector<Payload> opened = open_payloads(radio, "kios/1", 3);
   ASSERT_EQ(opened.size(), 2U);
   EXPECT_EQ(opened[0].sender, 2U);

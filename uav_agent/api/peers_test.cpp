@@ -51,13 +51,13 @@ TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
   peers.update(1000, {{.node = Node{2}, .p_W = p}});
   EXPECT_EQ(peers.all()[0].v_W, Vector3d::Zero());
   peers.update(1020, {{.node = Node{2}, .p_W = p, .v_W = Vector3d(0.0, 3.0, 0.0)}});
-  EXPECT_EQ(peers.all()[0].v_W, Vector3d(0.0, 3.0, 0.0)) << "what is told counts";
+  EXPECT_EQ(peers.all()[0].v_W, Vector3d(0.0, 3.0, 0.0)) << "the velocity that the peer sends counts";
   EXPECT_TRUE(peers.all()[0].v_told);
   EXPECT_NEAR((peers.all()[0].a_W - Vector3d(0.0, 60.0, 0.0)).norm(), 0.0, 1e-9) << "3 m/s more in 0.05 s";
   peers.update(1040, {{.node = Node{2}, .p_W = p, .v_W = Vector3d(0.0, 3.0, 0.0)}});
   EXPECT_EQ(peers.all()[0].a_W, Vector3d::Zero());
   peers.update(2000, {{.node = Node{2}, .p_W = p, .v_W = Vector3d::Zero()}});
-  EXPECT_EQ(peers.all()[0].a_W, Vector3d::Zero()) << "too long ago";
+  EXPECT_EQ(peers.all()[0].a_W, Vector3d::Zero()) << "the velocity before is too old";
 }
 
 TEST(Peers, HaveTheLinkOfThisExchangeAndNoOther) {

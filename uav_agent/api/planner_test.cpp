@@ -41,7 +41,7 @@ TEST(Planner, TheShippedOnesAreRegistered) {
   }
 }
 
-TEST(Planner, AWrongNameOrKeySaysWhatWouldBeRight) {
+TEST(Planner, TheErrorOfAWrongNameOrKeyNamesTheRightOne) {
   EXPECT_NE(message_of("patrool").find("patrol"), std::string::npos) << message_of("patrool");
   EXPECT_NE(message_of("zzzzzzzz").find("hover"), std::string::npos) << message_of("zzzzzzzz");
   EXPECT_NE(message_of("hover:heigth_m=3").find("height_m"), std::string::npos) << message_of("hover:heigth_m=3");
@@ -62,7 +62,7 @@ TEST(Planner, WaypointsNamesTheUavThatIsNotInTheFleet) {
   EXPECT_NE(message_of("waypoints:" + file.string()).find("sentosa"), std::string::npos);
 }
 
-/// Flies an agent whose UAV is exactly where it was told to be.
+/// Flies an agent whose UAV follows its commands exactly.
 std::vector<Vector3d> fly(const std::string& spec, double seconds_to_fly,
                           std::vector<GimbalCommand>* gimbal = nullptr) {
   const AgentConfig config = lone_explorer();

@@ -24,9 +24,9 @@ Relay::Payload trajectory(double stamp_s, double x = 0.0) {
 
 Relay relay_of(const topics::WireTopic& topic) { return {topic, kExchange_s}; }
 
-// Random sequences of actions of nodes and fleet: each message that arrives has exactly one fate, and the relay passes
-// on the newest messages, in their order.
-TEST(Relay, EverySampleHasOneFate) {
+// Draws sequences of actions of nodes and of the fleet. The relay counts each message that arrives once, as handed on,
+// refused or lost, and passes on the newest messages in their order.
+TEST(Relay, CountsEverySampleOnce) {
   std::mt19937 random(38);
   for (int repeat = 0; repeat < 200; ++repeat) {
     Relay relay = relay_of(topics::trajectory_command("jurong"));
@@ -67,13 +67,13 @@ TEST(Relay, EverySampleHasOneFate) {
     EXPECT_EQ(report.received, said);
     EXPECT_EQ(report.handed_on, handed_on);
     EXPECT_EQ(report.refused, malformed);
-    EXPECT_EQ(report.lost, lost + waiting.size()) << "what waits is for no step";
+    EXPECT_EQ(report.lost, lost + waiting.size()) << "samples that still wait reach no step";
     EXPECT_EQ(report.late, 0U);
     EXPECT_EQ(report.other_clock, 0U);
   }
 }
 
-TEST(Relay, IsLateWhatIsStampedBeforeTheStepBeforeTheLast) {
+TEST(Relay, CountsSamplesAsLateThatAreOlderThanTwoExchanges) {
   Relay relay = relay_of(topics::trajectory_command("jurong"));
   for (const double age_s : {0.0, 0.05, 0.1, 0.15, 3.0}) relay.hear(trajectory(100.0 - age_s));
   relay.hear(trajectory(0.0));  // a node that stamps nothing

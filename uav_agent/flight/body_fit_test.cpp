@@ -15,7 +15,7 @@ Vector3d drawn_W(RandomStream& random) {
   return {x, y, z};
 }
 
-/// Half of it known to be free.
+/// Makes about half of the drawn space free.
 void clear_places(WorldMap& map, RandomStream& random) {
   for (int i = 0; i < 40; ++i) map.set_free(drawn_W(random), 3.0);
 }
@@ -46,7 +46,7 @@ TEST(BodyFit, FitsWhereTheBallAboutThePlaceIsFree) {
   }
 }
 
-TEST(BodyFit, AnotherRadiusIsAskedAnew) {
+TEST(BodyFit, AnswersAnewForAnotherRadius) {
   RandomStream random(6, "fit", 0);
   WorldMap map(WorldMap::Config{});
   clear_places(map, random);
@@ -61,7 +61,7 @@ TEST(BodyFit, AnotherRadiusIsAskedAnew) {
   }
 }
 
-TEST(BodyFit, AnAnswerIsKeptForAWhileAndWhatDoesNotFitIsAskedSoonerAgain) {
+TEST(BodyFit, KeepsAnswersForAWhileAndAsksAgainSoonerWhereTheBodyDidNotFit) {
   const Vector3d here_W(1.25, 1.25, 5.25), beside_W(7.25, 1.25, 5.25);
   const Tick month = Tick{1} << 30;  // an answer keeps 30 bits of its time
   for (const Tick start : {Tick{0}, month - ticks(2.0), month - ticks(1.0), month, 7 * month + 5}) {

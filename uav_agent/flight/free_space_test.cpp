@@ -14,7 +14,7 @@ OrientedBox unit_box() {
   return box;
 }
 
-/// A scan from 20 m above the box: its rays pass the space above `height` of each place, and hit there.
+/// A scan from 20 m above the box. Each ray passes through the space above `height`, and hits at this height.
 OccupancyMap seen_from_above(double height) {
   OccupancyMap::Config config;
   config.max_free_rays = 100'000;
@@ -29,7 +29,7 @@ OccupancyMap seen_from_above(double height) {
   return map;
 }
 
-TEST(FreeSpace, BesideABoxOnlyWhatWasSeenIsFree) {
+TEST(FreeSpace, UnseenSpaceIsFreeOnlyBeyondTheJutOfABox) {
   const std::vector<OrientedBox> boxes = {unit_box()};
   const OccupancyMap nothing;
   const FreeSpace space({.clearance_m = 1.8, .jut_m = 3.0}, boxes, nothing);
@@ -53,7 +53,7 @@ TEST(FreeSpace, SpaceThatRaysPassedMayBeEnteredUpToTheClearance) {
   EXPECT_FALSE(space.free({0.0, 0.0, 15.5})) << "behind it";
 }
 
-/// A wall in the plane x = 0, as somebody told of it.
+/// A wall in the plane x = 0 that another UAV reported.
 WorldMap wall() {
   WorldMap map({.ground_m = 0.3});
   for (int y = -20; y < 20; ++y) {
@@ -85,7 +85,7 @@ TEST(FreeSpace, AWayOutComesNoNearerToStructure) {
   EXPECT_GT(out, 100);
 }
 
-TEST(FreeSpace, NoWayOutLeadsPastAnotherUavMoreNearlyThanIsAllowed) {
+TEST(FreeSpace, NoWayOutComesNearerToAnotherUavThanIsAllowed) {
   const WorldMap world = wall();
   const OccupancyMap nothing;
   const std::vector<OrientedBox> boxes;
@@ -110,7 +110,7 @@ TEST(FreeSpace, NoWayOutLeadsPastAnotherUavMoreNearlyThanIsAllowed) {
   EXPECT_GT(refused, 50);
 }
 
-TEST(FreeSpace, ByTheMapOfAllBeamsTheUnknownMayBePlannedThroughUnlessProofIsAsked) {
+TEST(FreeSpace, WithAMapOfAllBeamsUnknownSpaceIsFreeUnlessProofIsRequired) {
   WorldMap world = wall();
   world.set_free({10.0, 0.0, 10.0}, 4.0);
   const OccupancyMap nothing;
@@ -125,7 +125,7 @@ TEST(FreeSpace, ByTheMapOfAllBeamsTheUnknownMayBePlannedThroughUnlessProofIsAske
     EXPECT_TRUE(space.free(proved_W));
     EXPECT_EQ(space.free(unknown_W), !proved_only);
     EXPECT_FALSE(space.free(near_W)) << "too near to the wall";
-    EXPECT_EQ(space.free({4.0, 0.0, 20.0}), !proved_only) << "boxes are nothing to keep off";
+    EXPECT_EQ(space.free({4.0, 0.0, 20.0}), !proved_only) << "with this map, boxes do not count";
     EXPECT_EQ(space.cost(proved_W), 1.0);
     EXPECT_EQ(space.cost(unknown_W), 1.5);
   }

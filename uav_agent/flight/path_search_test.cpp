@@ -32,7 +32,7 @@ void expect_free(const FreeSpace& space, const Vector3d& from, const std::vector
     const int steps = 1 + static_cast<int>((corner - at).norm() / 0.2);
     for (int i = 0; i <= steps; ++i) {
       const Vector3d p = at + (corner - at) * (static_cast<double>(i) / steps);
-      // The search looks at cells and at the middle between them; in between a little may be lost.
+      // The search checks cells and the middles between them. Elsewhere, the path may be slightly nearer to structure.
       EXPECT_FALSE(space.map().any_occupied_within(p, space.config().clearance_m - 0.4)) << p.transpose();
     }
     at = corner;
@@ -74,7 +74,7 @@ TEST(PathSearch, GoesAroundUnknownBoxes) {
   }
 }
 
-TEST(PathSearch, SaysSoWhenThereIsNone) {
+TEST(PathSearch, ReportsThatThereIsNoPath) {
   const std::vector<OrientedBox> boxes = {upright_box({0.0, 0.0, 20.0}, {20.0, 20.0, 40.0})};
   const OccupancyMap map;
   const FreeSpace space({}, boxes, map);
@@ -82,7 +82,7 @@ TEST(PathSearch, SaysSoWhenThereIsNone) {
   EXPECT_FALSE(find_path(space, boxes, {30.0, 0.0, 10.0}, {40.0, 0.0, 1.0})) << "the goal lies too low";
 }
 
-TEST(PathSearch, GoesAsNearAsItGetsToWhatCannotBeReached) {
+TEST(PathSearch, GoesAsNearAsPossibleToAGoalThatCannotBeReached) {
   constexpr double kWorthM = 3.0;
   for (std::uint64_t i = 0; i < 20; ++i) {
     RandomStream random(i, "approach", 0);
@@ -99,7 +99,8 @@ TEST(PathSearch, GoesAsNearAsItGetsToWhatCannotBeReached) {
     const Vector3d end = path->back();
     EXPECT_TRUE(space.free(end));
     EXPECT_LT((end - goal).norm(), 17.0) << "just beside the box";
-    EXPECT_FALSE(find_approach(space, boxes, end, goal, kWorthM)) << "case " << i << ": it is there";
+    EXPECT_FALSE(find_approach(space, boxes, end, goal, kWorthM))
+        << "case " << i << ": it is already as near as possible";
   }
 }
 

@@ -54,7 +54,7 @@ TEST(Rounding, ACornerWithoutRoomStays) {
   EXPECT_EQ(rounded(from, corners, 2.0, [](const Vector3d&, const Vector3d&) { return false; }), corners);
 }
 
-TEST(Rounding, StraightWaysAndShortLegsAreNoTrouble) {
+TEST(Rounding, StraightPathsStayAsTheyAreAndRepeatedCornersStayFinite) {
   const std::vector<Vector3d> straight = {{5, 0, 5}, {10, 0, 5}};
   EXPECT_EQ(rounded({0, 0, 5}, straight, 2.0, kFree), straight);
   const std::vector<Vector3d> doubled = {{5, 0, 5}, {5, 0, 5}, {5, 5, 5}};

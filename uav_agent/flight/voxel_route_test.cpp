@@ -28,12 +28,12 @@ class VoxelRoute : public testing::Test {
   const Vector3d here_{7.0, 8.0, 9.0}, there_{44.0, 6.0, 9.0};
 };
 
-TEST_F(VoxelRoute, StraightWhereNothingIsInTheWay) {
+TEST_F(VoxelRoute, IsStraightWhereNothingIsInTheWay) {
   const Vector3d aside(8.0, 40.0, 12.0);
   EXPECT_EQ(find_voxel_route(grid_, space(), here_, aside), std::vector<Vector3d>{aside});
 }
 
-TEST_F(VoxelRoute, AroundTheWallOnLegsThatAreFree) {
+TEST_F(VoxelRoute, LeadsAroundTheWallOnLegsThatAreFree) {
   const auto route = find_voxel_route(grid_, space(), here_, there_);
   ASSERT_TRUE(route);
   EXPECT_EQ(route->back(), there_);
@@ -63,11 +63,12 @@ TEST_F(VoxelRoute, ClaimedCubesAreNotEntered) {
   claimed = {*grid_.at(there_)};
   EXPECT_FALSE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "the goal itself";
   claimed = {*grid_.at(here_)};
-  EXPECT_TRUE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "where it is already";
+  EXPECT_TRUE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "the UAV is in this cube already";
 }
 
-/// Cubes that the grid alone says are occupied: others told of them. Only the goal's may be entered, to be near it.
-TEST_F(VoxelRoute, OccupiedCubesAreNotEnteredButTheGoals) {
+/// Some cubes are occupied only according to the grid, because other UAVs reported them. The route enters no such cube
+/// but that of the goal, to get near to the goal.
+TEST_F(VoxelRoute, EntersNoOccupiedCubeButThatOfTheGoal) {
   int found = 0;
   for (std::uint64_t world = 0; world < 60; ++world) {
     RandomStream random(world, "voxel_route", 0);

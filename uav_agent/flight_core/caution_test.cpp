@@ -38,7 +38,7 @@ struct Told : FlownUav {
   Caution caution;
 };
 
-TEST(Caution, ChangesNothingWhereNothingIsTold) {
+TEST(Caution, ChangesNothingWithoutUncertaintyWindAndBattery) {
   Told uav;
   uav.caution.update(uav.told());
   EXPECT_EQ(uav.caution.errors().seen_m, 0.0);
@@ -58,10 +58,11 @@ TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
   const double any_way_m = std::sqrt(0.06 / 3.0);
   uav.caution.update(uav.told());
   EXPECT_NEAR(uav.caution.errors().seen_m, rounded_up_m(sigmas * any_way_m), 1e-12)
-      << "nothing is known of how it drifts";
-  EXPECT_NEAR(uav.caution.errors().told_m, rounded_up_m(sigmas * any_way_m * std::sqrt(2.0)), 1e-12) << "both err";
+      << "without conditions, the whole deviation may be drift";
+  EXPECT_NEAR(uav.caution.errors().told_m, rounded_up_m(sigmas * any_way_m * std::sqrt(2.0)), 1e-12)
+      << "the UAV and the sender of the map both err";
   EXPECT_NEAR(uav.caution.errors().ground_m, rounded_up_m(sigmas * 0.2 * std::sqrt(2.0)), 1e-12)
-      << "seen with an error";
+      << "the ground was seen with an error, too";
   uav.wind_W = Vector3d(0, 8, 0);
   uav.caution.update(uav.told());
   EXPECT_NEAR(uav.caution.errors().seen_m, rounded_up_m(sigmas * any_way_m + pushed_m), 1e-12);
@@ -70,7 +71,7 @@ TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
   for (const double error_m : {uav.caution.errors().seen_m, uav.caution.errors().told_m}) EXPECT_EQ(error_m, 1.0);
 }
 
-// Two errors that have nothing to do with each other add as squares; the wind pushes both UAVs, so it counts once.
+// Independent errors add as squares. The wind pushes both UAVs, so it counts once.
 TEST(Caution, KeepsOffAnotherUavByBothErrorsAlongEachAxis) {
   for (int seed = 0; seed < 20; ++seed) {
     RandomStream draw(static_cast<std::uint64_t>(seed), "caution_peers", 0);
@@ -114,7 +115,8 @@ TEST(Caution, KeepsOffAnotherUavByBothErrorsAlongEachAxis) {
   }
 }
 
-// Against drawn errors: how far the position drifts in the time in which a LiDAR sees everything again.
+// The test draws errors of odometry and measures how far the position drifts within look_s, the time in which a LiDAR
+// sees everything again. The UAV must keep off structure by this drift.
 TEST(Caution, CountsWithTheDriftSinceStructureWasSeen) {
   for (int seed = 0; seed < 12; ++seed) {
     RandomStream draw(static_cast<std::uint64_t>(seed), "caution_test", 1);
@@ -155,7 +157,7 @@ TEST(Caution, CountsWithALostFixAndForAWhileAfterIt) {
   };
   const double usual_m = seen_m(0.1, 1.0), lost_m = seen_m(0.4, 1.0);
   EXPECT_GT(lost_m, uav.flight_config.drift_sigmas * std::sqrt(0.4 * 0.4 - 0.1 * 0.1));
-  EXPECT_GT(seen_m(0.1, 0.05), 0.95 * lost_m) << "its map is of the time without a fix";
+  EXPECT_GT(seen_m(0.1, 0.05), 0.95 * lost_m) << "its map was made in the time without a fix";
   EXPECT_NEAR(seen_m(0.1, 20.0 * uav.flight_config.look_s), usual_m, 1e-3);
 }
 
@@ -212,7 +214,7 @@ TEST(Caution, ARestartOrAPauseIsNoReasonToGoHome) {
   EXPECT_FALSE(uav.caution.must_land(uav.told()));
 }
 
-TEST(Caution, ALossOfChargeIsNoConsumption) {
+TEST(Caution, ASuddenLossOfChargeIsNotTakenForConsumption) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "loss", 0);
     Told uav;
@@ -232,8 +234,8 @@ TEST(Caution, ALossOfChargeIsNoConsumption) {
   }
 }
 
-// Its program may have been away while its battery was swapped.
-TEST(Caution, AnotherBatteryCountsUntilTheUavMustLandAgain) {
+// The UAV's program may have been down while the battery was swapped.
+TEST(Caution, ASwappedBatteryCountsAsFullUntilTheUavMustLandAgain) {
   Told uav;
   const auto told = [&](double charge) {
     uav.battery = BatteryStatus{.charge = charge};
@@ -261,7 +263,8 @@ TEST(Caution, CanBeTurnedOff) {
   EXPECT_FALSE(uav.caution.must_sink(uav.told()));
 }
 
-// A way home of a minute needs more than the descent from here: it must land first, and sink much later.
+// The flight home needs more charge than the descent from here. So the UAV must fly home to land first, and must sink
+// where it is only much later.
 TEST(Caution, MustSinkOnlyWhenTheDescentFromHereNeedsAllThatIsLeft) {
   for (const double height_m : {2.0, 20.0, 60.0}) {
     Told uav;

@@ -82,8 +82,8 @@ Crowd drawn_group_below_a_canopy(std::uint64_t seed) {
   return crowd;
 }
 
-// The explorer rises until the canopy stops it, and the others below it until it stops them. No UAV can fly past
-// another one any more, until those that rest make room.
+// The explorer rises until the canopy stops it, and the others rise until the explorer stops them. Then no UAV can fly
+// past another one until those that rest make room.
 TEST(CrowdedStarts, EveryUavGetsAwayBelowACanopy) {
   const char* const planners[] = {"star", "flock", "kios"};
   for (const std::uint64_t seed : {1, 2, 3, 9, 10, 11}) {

@@ -73,14 +73,14 @@ struct WantsOnePlaceAfterTheOther : CoreUav {
   int outcomes = 0, forgotten = 0, longest_forgotten = 0;
 };
 
-// The last goal's outcome may fall together with the begin of a recovery: above all when a program was stopped for some
-// seconds, for then nothing has got on for long.
+// The last goal may end in the exchange in which a recovery begins, above all after the program was stopped for some
+// seconds, because the UAV has then made no progress for long.
 TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     WantsOnePlaceAfterTheOther uav(seed);
     for (int i = 0; i < 3000; ++i) {
       uav.exchange();
-      if (uav.random.uniform() < 0.005) uav.k += 20 + uav.random.bits() % 300;  // it stands still for 1 to 16 s
+      if (uav.random.uniform() < 0.005) uav.k += 20 + uav.random.bits() % 300;  // the program is stopped for 1 to 16 s
     }
     EXPECT_GT(uav.outcomes, 2) << "seed " << seed;
     EXPECT_LE(uav.longest_forgotten, 1) << "seed " << seed;
@@ -149,8 +149,9 @@ TEST(FlightCore, RecoversWhereThereIsNoWayHome) {
   }
 }
 
-// It flies no leg of its line twice but the one in which it was interrupted, and counts legs as its strategy does.
-TEST(FlightCore, ALineThatWasInterruptedGoesOn) {
+// After an interruption, the UAV flies no leg of its line again but the interrupted one. It counts legs as its strategy
+// does.
+TEST(FlightCore, AUavContinuesALineThatWasInterrupted) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "line", 0);
     AgentConfig agent = a_lone_explorer();
@@ -224,7 +225,7 @@ TEST(FlightCore, APhotographerThatAssumedSpaceToBeFreeFliesToTheSpaceThatItIsTol
   }
 }
 
-// Its strategy's lines follow one another without a break.
+// The explorer's strategy sets one line after another, without a break.
 TEST(FlightCore, AnExplorerOnALineShowsAPhotographerItsWayAfterAWhile) {
   AgentConfig agent = a_lone_explorer();
   agent.fleet.push_back(
@@ -249,12 +250,12 @@ TEST(FlightCore, AnExplorerOnALineShowsAPhotographerItsWayAfterAWhile) {
     const bool showed = std::exchange(shows, uav.core.doing(in).what == Doing::What::shows_mate);
     if (shows && !showed) ++times;
   }
-  EXPECT_GE(times, 2) << "the first time, it has no line yet";
+  EXPECT_GE(times, 2) << "the first time, the explorer has no line yet";
 }
 
-/// A photographer in a neck of a corridor, which another UAV holds: it hovers nearer than the safety filter would have
-/// let it come, and the path search, whose start is not free, leads the way past it. The strategy replaces its goal
-/// every 1.5 s, by another place behind that UAV.
+/// A photographer in a neck of a corridor that another UAV blocks. The photographer hovers nearer to that UAV than the
+/// safety filter would have let it come, and the path search, whose start is not free, finds a path past it. The
+/// strategy replaces the goal every 1.5 s by another place behind that UAV.
 struct HeldInACorridor : CoreUav {
   explicit HeldInACorridor(std::uint64_t seed) : CoreUav(two_photographers(), {-20.0, 0.0, 10.0}) {
     lidar_works = false;
@@ -340,7 +341,8 @@ TEST(FlightCore, AUavThatHasMadeRoomFliesToItsGoal) {
   }
 }
 
-// Its battery is low, so it lands, and is given a full one there. The strategy has set its goal meanwhile.
+// The UAV lands because its battery is low, and gets a full battery on the ground. Meanwhile, the strategy has set its
+// goal.
 TEST(FlightCore, WithAFullBatteryAUavThatHasLandedFliesToItsGoal) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "full_battery", 0);

@@ -52,7 +52,7 @@ struct InARoom : CoreUav {
   Doing::What doing = Doing::What::ground;
 };
 
-// No beam proves the space between its room and the station.
+// No beam proves the space between the UAV's room and the station.
 TEST(GoingHome, AUavThatFindsNoWayHomeGoesBackToWork) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "no_way_home", 0);
@@ -79,7 +79,7 @@ TEST(GoingHome, AUavThatFindsNoWayHomeGoesBackToWork) {
   }
 }
 
-// In the last seconds, it has nothing better to do.
+// In the last seconds, the UAV has nothing better to do than to look for a way home.
 TEST(GoingHome, InTheEndAUavThatFindsNoWayHomeDoesNotGiveUp) {
   InARoom uav({150.0, 0.0, 0.3});
   int worked = 0;
@@ -93,8 +93,8 @@ TEST(GoingHome, InTheEndAUavThatFindsNoWayHomeDoesNotGiveUp) {
   EXPECT_EQ(worked, 0);
 }
 
-// Its strategy has set its goal once, and the UAV had not reached it when it was due home. The link comes while it
-// flies home, or recovers since there is no way home.
+// The strategy sets the goal only once, and the UAV has not reached it when it must fly home. The link returns while
+// the UAV flies home, or while it recovers because there is no way home.
 TEST(GoingHome, AGoalOutlivesAFlightHomeThatIsNoLongerNeeded) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "outlives", 0);
@@ -111,7 +111,7 @@ TEST(GoingHome, AGoalOutlivesAFlightHomeThatIsNoLongerNeeded) {
         EXPECT_EQ(outcome.id, 1) << "seed " << seed;
         reached |= outcome.kind == Outcome::Kind::reached;
       }
-      EXPECT_FALSE(reached && due_s == 0.0) << "seed " << seed << ": it had no time for this";
+      EXPECT_FALSE(reached && due_s == 0.0) << "seed " << seed << ": it reached the goal before it had to fly home";
       if (due_s == 0.0 && (has_way ? uav.goes_home() : uav.recovers())) due_s = uav.now_s();
       uav.linked = due_s > 0.0 && uav.now_s() > due_s + link_after_s;
       if (uav.linked) uav.undelivered = 0;

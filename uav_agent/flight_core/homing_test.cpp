@@ -1,4 +1,4 @@
-// When a UAV has to leave, and where to.
+// When a UAV has to fly home, and to which places.
 #include "uav_agent/flight_core/homing.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ struct ComingHome : FlownUav {
 TEST(Homing, IsDueWhenCapturesHaveWaitedForLong) {
   ComingHome uav({40.0, 0.0, 10.0});
   uav.wait(2.0 * uav.config.deliver_every_s);
-  EXPECT_FALSE(uav.homing.due(uav.input())) << "there is nothing to bring";
+  EXPECT_FALSE(uav.homing.due(uav.input())) << "there is nothing to deliver";
   uav.undelivered = 3;
   uav.wait(uav.config.deliver_every_s - 1.0);
   EXPECT_FALSE(uav.homing.due(uav.input()));
@@ -56,7 +56,7 @@ TEST(Homing, AGivenUpWayHomeIsDueLaterOrAtTheEnd) {
   EXPECT_TRUE(uav.homing.due(uav.input()));
 }
 
-// The farther off it is, the earlier; and no UAV counts on flying faster than approach_mps.
+// The farther off a UAV is, the earlier it must leave. It never counts on flying faster than approach_mps.
 TEST(Homing, IsDueInTimeForTheWay) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     RandomStream random(seed, "way_home", 0);
@@ -101,7 +101,7 @@ TEST(Homing, IsDoneOnceAllIsDeliveredAndTimeIsLeft) {
   EXPECT_FALSE(uav.homing.done(uav.input())) << "it would be due again at once";
 }
 
-// Where the link lasted comes first, not where it broke; and somewhere high above the station is always left.
+// The first place is one where the link lasted, not where it broke. The last place is always above the station.
 TEST(Homing, GoesBackToWhereItHadTheLink) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "linked", 0);
@@ -125,7 +125,7 @@ TEST(Homing, GoesBackToWhereItHadTheLink) {
   }
 }
 
-TEST(Homing, TwoThatComeHomeAreNotSentToTheSamePlaceAboveTheStation) {
+TEST(Homing, TwoUavsThatFlyHomeGetDifferentPlacesAboveTheStation) {
   ComingHome first({40.0, 0.0, 10.0}, 0), second({40.0, 5.0, 10.0}, 1);
   const auto one = first.homing.places(first.input(), first.navigator.space(first.input()));
   const auto other = second.homing.places(second.input(), second.navigator.space(second.input()));

@@ -30,7 +30,8 @@ TEST(LandingPlace, IsTheStartOfAUavThatStartsAlone) {
   EXPECT_EQ(places_W(fleet_at(starts_W), 2.5), starts_W);
 }
 
-/// Grids as scenarios have them, with up to 12 UAVs and offsets: all are apart, none is moved farther than need be.
+/// Draws grids of up to 12 starts with offsets, as scenarios have them. All landing places are apart, and none is
+/// farther from its start than necessary.
 TEST(LandingPlace, OfUavsThatStartCloseToEachOtherAreApart) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     RandomStream random(seed, "landing_place", 0);
@@ -51,7 +52,7 @@ TEST(LandingPlace, OfUavsThatStartCloseToEachOtherAreApart) {
     }
     EXPECT_GT(closest_m, std::min(apart_m, spacing_m) - 1e-9) << seed;
     EXPECT_GT(closest_m, apart_m - 1e-9) << seed;
-    EXPECT_EQ(places.back(), starts_W.back()) << "nobody starts beside it";
+    EXPECT_EQ(places.back(), starts_W.back()) << "no other UAV starts near it";
   }
 }
 

@@ -39,7 +39,7 @@ struct LandingUav : FlownUav {
   bool begun = false;
 };
 
-TEST(Landing, AtItsStartIfItCan) {
+TEST(Landing, IsAtTheStartIfPossible) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "landing", 0);
     LandingUav uav(seed % 2 == 0 ? Role::explorer : Role::photographer,
@@ -51,7 +51,7 @@ TEST(Landing, AtItsStartIfItCan) {
   }
 }
 
-// An explorer creeps where little is proved ahead. Straight down, only the safety filter limits its speed.
+// An explorer flies slowly where little space ahead is proved. Straight down, only the safety filter limits its speed.
 TEST(Landing, AnExplorerThatMustSinkDoesNotCreepDown) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "creeps", 0);
@@ -66,7 +66,7 @@ TEST(Landing, AnExplorerThatMustSinkDoesNotCreepDown) {
   }
 }
 
-TEST(Landing, ElsewhereIfSomethingStandsThere) {
+TEST(Landing, IsElsewhereIfSomethingStandsAtTheStart) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "landing_elsewhere", 0);
     LandingUav uav(seed % 2 == 0 ? Role::explorer : Role::photographer,
@@ -89,7 +89,7 @@ TEST(Landing, APhotographerWithoutAProvedWayTrustsUnknownSpace) {
 
 // Under the condition `battery`, UAVs in narrow shafts waited for a path until they could only just land, and one of
 // them, held by another UAV below, fell with an empty battery.
-TEST(Landing, WhereItIsIfThereIsNoPathToAnyPlace) {
+TEST(Landing, AUavWithoutAPathToAnyPlaceComesDownWhereItIs) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "landing_shut_in", 0);
     const Vector3d at_W(random.uniform(11.0, 13.0), random.uniform(5.0, 6.0), random.uniform(4.0, 14.0));
@@ -105,7 +105,7 @@ TEST(Landing, WhereItIsIfThereIsNoPathToAnyPlace) {
   }
 }
 
-TEST(Landing, InTheEndItSinksWhereItIs) {
+TEST(Landing, AUavThatMustSinkComesDownWhereItIs) {
   LandingUav uav(Role::photographer, {12.0, 5.0, 9.0});
   ASSERT_TRUE(uav.land(kLandsWithin, true));
   EXPECT_LT(uav.off_m({12.0, 5.0, 0.0}), 0.5);

@@ -94,7 +94,7 @@ TEST(MakingRoom, LeadsAwayFromAllOthersAndNotToStructure) {
   EXPECT_GT(places, 8);
 }
 
-TEST(MakingRoom, AUavThatDoesNotStandStillDoesNot) {
+TEST(MakingRoom, AUavThatDoesNotStandStillMakesNoRoom) {
   Rests uav(2);
   const Vector3d along = Vector3d::UnitX();
   const std::vector<Vector3d> beside_W = {uav.state.p_WB + (uav.apart_m(1, along + uav.state.p_WB) + 0.4) * along};

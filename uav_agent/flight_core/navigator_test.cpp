@@ -46,7 +46,7 @@ TEST(Navigator, FliesToAGoalAndAlongItsWay) {
   }
 }
 
-// The first place is in the midst of structure: it says so at once, and takes the next.
+// The first place is in the midst of structure. The navigator reports this at once, and takes the next goal.
 TEST(Navigator, TakesTheFirstGoalToWhichThereIsAWay) {
   for (std::uint64_t seed = 1; seed <= 15; ++seed) {
     RandomStream random(seed, "ranked", 0);
@@ -67,8 +67,8 @@ TEST(Navigator, TakesTheFirstGoalToWhichThereIsAWay) {
   }
 }
 
-// No beam proves the space there free, and the UAV cannot wait for ever.
-TEST(Navigator, GivesUpWhatIsNeverProved) {
+// No beam proves the space at the goal free, and the UAV must not wait for ever.
+TEST(Navigator, GivesUpAGoalInSpaceThatIsNeverProved) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "never", 0);
     InAClearing uav;
@@ -97,7 +97,7 @@ TEST(Navigator, SaysWhichLegIsBlocked) {
     ASSERT_EQ(outcomes.size(), 1U) << "seed " << seed;
     EXPECT_EQ(outcomes[0].kind, Outcome::Kind::blocked) << "seed " << seed;
     const double x_m = uav.tracker.tracking().setpoint.p_WB.x();
-    if (std::abs(x_m + 6.0) < 1.0) continue;  // about the second waypoint, either will do
+    if (std::abs(x_m + 6.0) < 1.0) continue;  // near the second waypoint, both legs are right
     EXPECT_EQ(outcomes[0].leg, x_m < -6.0 ? 1U : 2U) << "seed " << seed;
     EXPECT_LT(uav.state.p_WB.x(), wall_m - 1.7);
   }
@@ -150,7 +150,8 @@ TEST(Navigator, WithoutItsLidarItPlansThroughProvedSpaceAlone) {
     uav.navigator.want({outside});
     uav.navigate(kTwoMinutes);
     EXPECT_TRUE(uav.navigator.sees());
-    EXPECT_GT((uav.state.p_WB - again_W).norm(), 3.0) << "to the end of what is free: it might prove more";
+    EXPECT_GT((uav.state.p_WB - again_W).norm(), 3.0)
+        << "it flies to the end of free space, where its beams might prove more";
   }
 }
 

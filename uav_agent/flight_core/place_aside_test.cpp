@@ -1,4 +1,4 @@
-// A UAV that stands beside structure gets up: somewhere else than straight above its start.
+// A UAV that stands beside structure takes off, but not straight above its start.
 #include "uav_agent/flight_core/place_aside.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ AgentConfig explorer_at_its_start() {
   return agent;
 }
 
-/// On the ground.
+/// A UAV that stands on the ground.
 struct Climber : FlownUav {
   Climber() : FlownUav(explorer_at_its_start(), {0.0, 0.0, 0.16}) {
     boxes = {make_box({20.0, 0.0, 6.0}, {4.0, 4.0, 12.0})};
@@ -50,7 +50,7 @@ struct Climber : FlownUav {
   bool works = false, was_held = false;
 };
 
-/// Beside a wall of 6 m width and 12 m height at a distance in some direction.
+/// A UAV beside a wall of 6 m width and 12 m height, at a distance in some direction.
 struct BesideAWall : Climber {
   BesideAWall(double direction, double off_m) {
     clear({-12.0, -12.0, 0.0}, {12.0, 12.0, 20.0});
@@ -74,7 +74,7 @@ TEST(PlaceAside, AUavBesideAWallGetsUpAndComesNoNearer) {
     EXPECT_GE(uav.nearest_m, begun_m - 0.26) << "seed " << seed << ": the map's distance is of cubes of 0.5 m";
     held += uav.was_held ? 1 : 0;
   }
-  EXPECT_GE(held, 4) << "else the test says nothing";
+  EXPECT_GE(held, 4) << "the test needs UAVs that structure holds";
 }
 
 TEST(PlaceAside, PlacesHaveMoreRoomThanTheStart) {
@@ -104,7 +104,7 @@ TEST(PlaceAside, ThereIsNoneWithoutStructureAndNoneInAShaft) {
   EXPECT_TRUE(places_aside_W(free.state.p_WB, 6.0, 2.0, free.map).empty());
 }
 
-/// Under one cube that its LiDAR does not see from there.
+/// A UAV below one cube that its LiDAR cannot see from the start.
 struct UnderABlindCube : Climber {
   explicit UnderABlindCube(const Vector2d& off_m) {
     state.p_WB.head<2>() = Vector2d(0.25, 0.25) + off_m;
@@ -112,7 +112,7 @@ struct UnderABlindCube : Climber {
     agent.odometry = conditions_preset("harsh").odometry;
     see(WorldMap::Cube(0, 0, 4));
   }
-  /// All smallest cubes about its way up but for one.
+  /// Proves that all smallest cubes around its way up are free, except for one.
   void see(const WorldMap::Cube& blind) {
     for (int x = -12; x < 12; ++x) {
       for (int y = -12; y < 12; ++y) {

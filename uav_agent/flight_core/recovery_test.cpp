@@ -64,7 +64,7 @@ TEST(Recovery, LooksAroundFirst) {
   EXPECT_GE(looks.turns, 4) << "about its own axis";
   EXPECT_LT(looks.moved_m, 0.1);
   const auto waits = photographer.recover();
-  EXPECT_EQ(waits.turns, 0) << "it sees nothing anyway";
+  EXPECT_EQ(waits.turns, 0) << "it has no LiDAR";
   EXPECT_LT(waits.moved_m, 0.1);
   EXPECT_LT(waits.took_s, looks.took_s);
 }
@@ -88,7 +88,7 @@ TEST(Recovery, ThenGoesElsewhereAndUp) {
       const bool anew = i == 0 && uav.recovery.doing() == Doing::What::looks_round;
       EXPECT_FALSE(anew) << "a goal reached right there is no progress";
       moved_m = std::max(moved_m, tried.moved_m);
-      EXPECT_LT(tried.took_s, 40.0) << "nothing of it is for ever";
+      EXPECT_LT(tried.took_s, 40.0) << "each behaviour ends";
     }
     EXPECT_GT(moved_m, 4.0);
     uav.fly_straight_to({0.0, 0.0, 10.0});
@@ -99,7 +99,7 @@ TEST(Recovery, ThenGoesElsewhereAndUp) {
   }
 }
 
-// Walled in, there is nowhere to go: each try ends all the same, and it stays where it is proved to be free.
+// A UAV that is walled in can go nowhere. Each behaviour ends all the same, and the UAV stays in proved space.
 TEST(Recovery, EndsWhereThereIsNowhereToGo) {
   for (const Role role : {Role::explorer, Role::photographer}) {
     Recovers uav(role);
@@ -161,7 +161,7 @@ TEST(Recovery, NoTrailLeadsBackToTheGround) {
   }
 }
 
-// At the end of a shaft, nothing else is known to be free. Each time round it goes back farther.
+// At the end of a shaft, no other space is known to be free. Each time that the UAV goes back, it goes farther.
 TEST(Recovery, GoesBackTheWayThatItCame) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "back", 0);
@@ -264,7 +264,7 @@ TEST(Recovery, AUavWhoseWayBackIsTakenForStructureGetsAwayFromIt) {
   }
 }
 
-// Where not even that is left, it stays.
+// If the neck is too narrow even for a body that goes back slowly, the UAV stays above it.
 TEST(Recovery, NoUavGoesBackThroughLessThanItsBodyNeeds) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     ShutIn uav(seed % 2 == 0 ? Role::photographer : Role::explorer, 2 * seed + 1, true);
@@ -301,7 +301,7 @@ TEST(Recovery, ForgetsLoopsOfItsTrail) {
   }
 }
 
-TEST(Recovery, ComesNearerToWhatItMissed) {
+TEST(Recovery, BringsTheUavNearerToTheGoalThatItMissed) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "approach", 0);
     Recovers uav;

@@ -10,9 +10,9 @@
 namespace skein::agent {
 namespace {
 
-// By their odometry, one of two UAVs that stand side by side is higher by what both are off. That must not keep the
-// other one on the ground; one that hovers above the ground, or moves, does.
-TEST(SafetyFilter, AUavClimbsBesideOneThatStandsHoweverHighThatIsTold) {
+// Of two UAVs that stand side by side, one seems higher than the other, because their odometry errs. That must not keep
+// the other one on the ground. A UAV that hovers above the ground, or moves, must.
+TEST(SafetyFilter, AUavClimbsBesideOneThatStandsWhateverHeightThatOneReports) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     RandomStream random(seed, "stands_beside", 0);
@@ -34,10 +34,10 @@ TEST(SafetyFilter, AUavClimbsBesideOneThatStandsHoweverHighThatIsTold) {
     EXPECT_FALSE(climbs(random.uniform(1.6, 2.4), Vector3d::Zero())) << seed << ": it hovers";
     held += climbs(random.uniform(0.3, 1.0), {0.0, 0.0, random.uniform(0.6, 2.0)}) ? 0 : 1;
   }
-  EXPECT_GT(held, 20) << "one that climbs is in the way where it is told to be";
+  EXPECT_GT(held, 20) << "a UAV that climbs blocks the place that it reports";
 }
 
-// Both want to be where the other one is, or across its way.
+// Each UAV wants to fly to the place of the other one, or across its path.
 TEST(SafetyFilter, TwoUavsNeverTouch) {
   double nearest_m = 1e9;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
@@ -127,8 +127,8 @@ TEST(SafetyFilter, TwoUavsThatFollowTheirCommandsLateCouldAlwaysBrake) {
   }
 }
 
-// Each turns onto the other one's way while that one does the same: what a UAV shows before its turn foretells another
-// way than the one on which it brakes.
+// Both UAVs turn onto each other's paths at the same time. The velocity that a UAV reports before its turn predicts
+// another path than that on which it brakes after it.
 TEST(SafetyFilter, TwoUavsThatTurnTowardsEachOtherKeepTheirDistance) {
   double nearest_m = 1e9;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
@@ -153,7 +153,7 @@ TEST(SafetyFilter, TwoUavsThatTurnTowardsEachOtherKeepTheirDistance) {
   EXPECT_LT(nearest_m, 2.6) << "they never met";
 }
 
-// One goes out of sight, and comes to rest there: the other one keeps off, though it hears no more of it.
+// One UAV goes out of sight and comes to rest there. The other one keeps off, although it hears no more of the first.
 TEST(SafetyFilter, KeepsOffAUavThatWentOutOfSight) {
   double nearest_m = 1e9;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {

@@ -12,7 +12,8 @@
 namespace skein::agent {
 namespace {
 
-/// A way is looked at in steps of 0.3 m, so between them a tube is that much narrower; and as much for rounding.
+/// The filter checks a path every 0.3 m, so the tube is slightly narrower between the checked places. Includes
+/// rounding.
 constexpr double kBetweenStepsM = 0.01;
 /// An obstacle that the UAV flies away from may be within the tube by this distance [m]; measured: 0.035 m.
 constexpr double kFliesAwayM = 0.05;
@@ -90,7 +91,7 @@ TEST(SafetyFilter, DoesNotCreepIntoTheUnknown) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "creeps", 0);
     const Vector3d ahead_W = drawn_within(random, 1.0).normalized();
-    const double free_m = seed % 2 == 0 ? random.uniform(0.8, 1.6) : 8.0;  // little all about it, or ahead alone
+    const double free_m = seed % 2 == 0 ? random.uniform(0.8, 1.6) : 8.0;  // little is free on all sides, or only ahead
     GuardedUav uav(Vector3d(0.0, 0.0, 20.0) + (free_m > 2.0 ? free_m - 1.2 : 0.0) * ahead_W);
     uav.config.tight_halo_m = kHaloM;  // as for one that has had room before
     uav.map.set_free({0.0, 0.0, 20.0}, free_m);
@@ -112,8 +113,8 @@ TEST(SafetyFilter, DoesNotCreepIntoTheUnknown) {
   }
 }
 
-// Put down beside what leaves it less room than the halo, it leaves, slowly and with less; once it has had room, the
-// halo is kept again.
+// A UAV that was put down nearer to structure than the halo leaves slowly, with a smaller halo. Once it has had room,
+// it keeps the full halo again.
 TEST(SafetyFilter, LeavesAPlaceWithLittleRoomSlowly) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "tight", 0);
@@ -169,7 +170,7 @@ TEST(SafetyFilter, ABlindFleetKeepsOutOfBoxes) {
   EXPECT_GT(flown_m, 300.0);
 }
 
-// Nearer to a box than it may be, by a hair or by much: it comes no nearer, and it is not bound to stay there for ever.
+// The UAV is nearer to a box than it may be, slightly or by much. It comes no nearer, but it may leave.
 TEST(SafetyFilter, ABlindUavMayLeaveABoxThatItIsTooNearTo) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "leaves", 0);

@@ -35,7 +35,7 @@ struct Shows : FlownUav {
   Showing showing{agent, filter};
 };
 
-// Every photographer is shown a way, by the explorer that starts nearest and no other, ever more rarely.
+// The explorer that starts nearest, and no other, shows each photographer its way, at growing intervals.
 TEST(Showing, EachPhotographerIsShownItsWayByTheNearestExplorer) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "fleet", 0);
@@ -68,8 +68,8 @@ TEST(Showing, EachPhotographerIsShownItsWayByTheNearestExplorer) {
   }
 }
 
-/// An explorer takes over where the one that starts nearer is lost: later for each such explorer, and only if it sees
-/// the photographer stand.
+/// An explorer takes over if those that start nearer may be lost. The more of them there are, the later it does so, and
+/// only if it sees the photographer stand.
 TEST(Showing, FartherExplorersTakeOverAPhotographerThatTheySeeStand) {
   AgentConfig fleet;
   fleet.fleet = {{.name = "near", .p_WB_start = {6.0, 1.0, 0.0}},
@@ -110,14 +110,14 @@ TEST(Showing, EndsWhereTheColumnIsKnown) {
   ASSERT_TRUE(uav.next());
   EXPECT_FALSE(uav.showing.shown(uav.input()));
   uav.clear({2.0, -4.0, 0.0}, {10.0, 4.0, 3.0});
-  EXPECT_FALSE(uav.showing.shown(uav.input())) << "half of it";
+  EXPECT_FALSE(uav.showing.shown(uav.input())) << "only half of the column is known";
   uav.clear({2.0, -4.0, 0.0}, {10.0, 4.0, 10.0});
   EXPECT_TRUE(uav.showing.shown(uav.input()));
   uav.k += 400;
   EXPECT_FALSE(uav.next());
 }
 
-// It may have received no map, because it is out of sight.
+// The photographer may have received no map, because it is out of sight.
 TEST(Showing, APhotographerThatStaysLowForLongIsShownAgain) {
   for (const bool seen : {false, true}) {
     Shows uav(explorer_and_photographer(), 0);
@@ -139,7 +139,7 @@ TEST(Showing, APhotographerThatStaysLowForLongIsShownAgain) {
   }
 }
 
-// It rose while the explorer was elsewhere.
+// The photographer rose while the explorer was elsewhere.
 TEST(Showing, APhotographerThatIsNotWhereItStoodIsForgotten) {
   for (const bool there : {true, false}) {
     Shows uav(explorer_and_photographer(), 0);
@@ -180,7 +180,8 @@ TEST(Showing, APhotographerThatWentAsideIsShownItsWayWhereItIs) {
   }
 }
 
-// One that was put down below a roof is looked at from below it, too: from above, its column cannot be seen.
+// The photographer may stand below a roof, so that its column cannot be seen from above. So the explorer also looks
+// from below.
 TEST(Showing, LooksFromOtherHeightsEachTime) {
   Shows uav(explorer_and_photographer(), 0);
   std::set<double> heights_m;

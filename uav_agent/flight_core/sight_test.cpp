@@ -34,7 +34,7 @@ struct Stands : FlownUav {
   ToldSpace told{config, agent};
 };
 
-// Those who told it of the other place may be lost.
+// The UAVs that sent the map of the other place may be lost.
 TEST(ToldSpace, AMapOfAnotherPlaceKeepsNoUavOnTheGround) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Stands uav(seed);
@@ -54,7 +54,7 @@ TEST(ToldSpace, AUavThatHearsNewsWaits) {
   }
 }
 
-TEST(ToldSpace, ItAssumesNothingAnyMoreOnceItIsInProvedSpace) {
+TEST(ToldSpace, AUavAssumesNothingAnyMoreOnceItIsInProvedSpace) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Stands uav(seed);
     uav.listen(uav.config.alone_s + 1.0);

@@ -77,10 +77,10 @@ struct BoxedUav : CoreUav {
   Vector3d outside_W = Vector3d::Zero();
   std::int64_t id = 0;
   double most_aside_m = 0.0;  ///< from above the start, while it was in a box
-  bool got_out = false;       ///< it was in no box
+  bool got_out = false;       ///< whether it has been outside all boxes
 };
 
-TEST(StartInBox, AUavThatIsToldNoMapClimbsStraightUpOutOfIt) {
+TEST(StartInBox, AUavThatReceivesNoMapClimbsStraightUpOutOfTheBox) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "boxed", 0);
     BoxedUav uav(seed % 2 == 0, random, 0.16);
@@ -89,8 +89,8 @@ TEST(StartInBox, AUavThatIsToldNoMapClimbsStraightUpOutOfIt) {
   }
 }
 
-// It was restarted there, or had climbed a little before its explorer was lost.
-TEST(StartInBox, AUavThatHoversInItFindsTheWayUpToo) {
+// The UAV was restarted in the box, or had climbed a little before its explorer was lost.
+TEST(StartInBox, AUavThatHoversInTheBoxFindsTheWayUpToo) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "boxed_hovers", 0);
     BoxedUav uav(seed % 2 == 0, random, random.uniform(2.5, 4.5));
@@ -100,7 +100,7 @@ TEST(StartInBox, AUavThatHoversInItFindsTheWayUpToo) {
   }
 }
 
-TEST(StartInBox, AUavWhoseBatteryIsLowLandsThere) {
+TEST(StartInBox, AUavWhoseBatteryIsLowLandsInTheBox) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "boxed_lands", 0);
     BoxedUav uav(false, random, 0.16);

@@ -1,4 +1,4 @@
-// Takeoffs: the order in which UAVs lift off, the climb, and what a UAV does that is held in it.
+// Takeoffs: the order in which UAVs lift off, the climb, and what a UAV does that is held while it climbs.
 #include "uav_agent/flight_core/takeoff.hpp"
 
 #include <gtest/gtest.h>
@@ -97,7 +97,7 @@ TEST(Takeoff, AnExplorerThatDriftsSinksBackAndClimbsOnceSpaceIsProved) {
   EXPECT_GT(uav.state.p_WB.z(), kStandsM + 3.0);
 }
 
-// The UAV that stands below it went aside from its start before, and landed there.
+// The UAV that stands below had moved aside from its start before, and landed there.
 TEST(Takeoff, AUavSinksBackCloseAboveOneThatStandsAsideOfItsStart) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "sinks_back", 0);

@@ -31,7 +31,7 @@ double distance_to_polyline(const Vector3d& p, const std::vector<Vector3d>& line
   return best;
 }
 
-/// A UAV that is exactly where it was told to be.
+/// A UAV that follows its commands exactly.
 struct PerfectUav {
   RigidBodyState state;
   Tracker tracker{limits()};
@@ -57,7 +57,7 @@ struct PerfectUav {
   }
 };
 
-TEST(Tracker, SaysNothingBeforeTheFirstMotion) {
+TEST(Tracker, CommandsNothingBeforeTheFirstMotion) {
   Tracker tracker(limits());
   EXPECT_FALSE(tracker.step({}, kDtS));
   EXPECT_FALSE(tracker.tracking().airborne);
@@ -96,7 +96,8 @@ TEST(Tracker, FollowsRandomPolylines) {
   }
 }
 
-// At a slower pace of commands the same way is flown, as fast: each is where the usual pace would have come to by then.
+// With longer exchanges, the tracker flies the same path as fast. Each command is where a tracker with exchanges of the
+// usual length would be by then.
 TEST(Tracker, ALongExchangeTakesTheSameWayInTheSameTime) {
   for (const int pace : {2, 4, 5, 10, 20}) {
     RandomStream random(static_cast<std::uint64_t>(pace), "polyline", 0);
@@ -161,7 +162,7 @@ TEST(Tracker, HoldStopsWithinTheBrakingDistance) {
 }
 
 // The tracker looks ahead from the position of the point mass, so no setpoint is beyond the stop.
-TEST(Tracker, AStopEndsWhereThePilotExpectsItAndStaysOnTheLine) {
+TEST(Tracker, AStopEndsWithinTheBrakingDistanceAndStaysOnTheLine) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     RandomStream random(seed, "stop", 0);
     PerfectUav uav({0.0, 0.0, 40.0});
@@ -183,7 +184,7 @@ TEST(Tracker, AStopEndsWhereThePilotExpectsItAndStaysOnTheLine) {
   }
 }
 
-TEST(Tracker, IsNotDoneBeforeWhatIsCommandedIsAtRest) {
+TEST(Tracker, IsNotDoneBeforeTheCommandedStateIsAtRest) {
   PerfectUav uav({0.0, 0.0, 10.0});
   uav.tracker.follow({{{{12.0, 0.0, 10.0}, 4.0}}});
   while (!uav.tracker.tracking().done) uav.step();
@@ -191,7 +192,7 @@ TEST(Tracker, IsNotDoneBeforeWhatIsCommandedIsAtRest) {
   EXPECT_EQ(uav.last.p_WB, Vector3d(12.0, 0.0, 10.0));
 }
 
-TEST(Tracker, GoesOnSmoothlyFromASetpointOfThePlanners) {
+TEST(Tracker, ContinuesSmoothlyFromASetpointOfThePlanner) {
   PerfectUav uav({0.0, 0.0, 20.0});
   const Vector3d v(3.0, 0.0, 1.0);
   for (int i = 0; i < 20; ++i) {
@@ -235,7 +236,7 @@ TEST(Tracker, YawTurnsAtALimitedRateTheShortWay) {
   EXPECT_NEAR(before, -3.0, 1e-9);
 }
 
-TEST(Tracker, NeverCommandsThePositionThatMeansNone) {
+TEST(Tracker, NeverCommandsTheOriginBecauseItMeansNoPosition) {
   PerfectUav uav({0.0, 0.0, 0.005});
   uav.tracker.hold();
   for (int i = 0; i < 5; ++i) EXPECT_GE(uav.tracker.step(uav.state, kDtS)->p_WB.norm(), 0.01);

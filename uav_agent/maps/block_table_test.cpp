@@ -10,7 +10,7 @@
 namespace skein::agent {
 namespace {
 
-/// As maps number their blocks: three coordinates of some bits each, about the origin and beyond it.
+/// A key as maps number their blocks: three coordinates of 21 bits each, on both sides of the origin.
 std::uint64_t drawn_key(RandomStream& random, int half) {
   const auto along = [&] { return static_cast<std::uint64_t>(random.uniform(-half, half)) & ((1U << 21) - 1); };
   const std::uint64_t x = along(), y = along(), z = along();
