@@ -84,7 +84,7 @@ TEST(DistanceField, WorksOutABlockAgainOnlyIfSomethingNearItHasChanged) {
   EXPECT_EQ(asked, 1);
   field.changed({8, 1, 1});
   field.distance_m({5, 1, 1}, occupied_in);
-  EXPECT_EQ(asked, 3) << "both blocks that have changed";
+  EXPECT_EQ(asked, 3) << "it asks for both blocks that have changed";
 }
 
 TEST(DistanceField, ReachesNoFartherThanABlock) {

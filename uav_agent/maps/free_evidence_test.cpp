@@ -39,8 +39,8 @@ TEST(UnseenMembers, TablesAreAboveTheIntegralsAndNearToThem) {
   }
 }
 
-/// Beams from one place, from two, from along a line and from everywhere: of members of drawn directions, the formula
-/// of the header never leaves more than the bound.
+/// Beams come from one place, from two, from along a line, or from all sides. Of members with drawn directions, the
+/// share that stays unseen by the header's formula is never above the bound.
 TEST(UnseenMembers, TheBoundHoldsWhereverBeamsComeFrom) {
   const FreeCriterion criterion;
   for (std::uint64_t world = 0; world < 60; ++world) {
@@ -74,7 +74,7 @@ TEST(UnseenMembers, TheBoundHoldsWhereverBeamsComeFrom) {
   }
 }
 
-TEST(UnseenMembers, BeamsOfAllSidesProveWithFewerThanBeamsOfOne) {
+TEST(UnseenMembers, FewerBeamsProveIfTheyComeFromAllSides) {
   const auto beams_needed = [](bool all_sides) {
     RandomStream random(1, "needed", 0);
     BeamEvidence evidence;
@@ -86,7 +86,7 @@ TEST(UnseenMembers, BeamsOfAllSidesProveWithFewerThanBeamsOfOne) {
     return evidence.per_m2();
   };
   EXPECT_NEAR(beams_needed(false), 375, 8);
-  EXPECT_LT(beams_needed(true), 160);  // oblique ones count for more
+  EXPECT_LT(beams_needed(true), 160);  // oblique beams count for more
 }
 
 /// Beams whose return is lost with probability q count as 1 - q times as many beams.
@@ -112,8 +112,8 @@ TEST(UnseenMembers, LostReturnsCountAsFewerBeams) {
   }
 }
 
-/// Members of which each sighting is lost by itself: the share that is unseen is below the bound.
-TEST(UnseenMembers, TheBoundHoldsOfSightingsThatAreLost) {
+/// Each sighting of a member may be lost, independently of the others. The share of unseen members is below the bound.
+TEST(UnseenMembers, TheBoundHoldsIfSightingsAreLost) {
   FreeCriterion criterion;
   criterion.no_return_p = 0.3;
   RandomStream random(6, "lost", 0);
@@ -132,7 +132,8 @@ TEST(UnseenMembers, TheBoundHoldsOfSightingsThatAreLost) {
   }
   const double share = static_cast<double>(unseen) / kMembers, error = std::sqrt(share / kMembers);
   EXPECT_GE(evidence.unseen_probability(criterion), share - 6.0 * error);
-  EXPECT_LT(evidence.unseen_probability(FreeCriterion()), share - 6.0 * error) << "without them it would not";
+  EXPECT_LT(evidence.unseen_probability(FreeCriterion()), share - 6.0 * error)
+      << "the bound for no lost returns would not hold";
 }
 
 TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
@@ -152,7 +153,7 @@ TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
   EXPECT_TRUE(evidence.full());
 }
 
-TEST(BeamEvidence, RemindsOnceThereAreSoMany) {
+TEST(BeamEvidence, IsDueOnceItHasTheBeamsOfItsReminder) {
   BeamEvidence evidence;
   EXPECT_TRUE(evidence.due());
   evidence.remind_at(10.0);
@@ -165,8 +166,9 @@ TEST(BeamEvidence, RemindsOnceThereAreSoMany) {
   EXPECT_FALSE(evidence.due());
 }
 
-/// From beams of one place to beams of everywhere, one more at a time, about the number at which it changes its mind.
-TEST(FreeJudge, SaysWhatTheProbabilitySays) {
+/// Beams come from one place up to all sides. The test adds one at a time, around the number at which the judgement
+/// changes.
+TEST(FreeJudge, JudgesAsTheProbabilityDoes) {
   std::size_t asked = 0, proved = 0;
   for (const auto& [unseen_p, no_return_p] : {std::pair{1e-2, 0.0}, {1e-3, 0.0}, {1e-3, 0.3}, {1e-4, 0.0}}) {
     const FreeCriterion criterion{.unseen_p = unseen_p, .no_return_p = no_return_p};
@@ -191,7 +193,7 @@ TEST(FreeJudge, SaysWhatTheProbabilitySays) {
   EXPECT_GT(asked, 10 * proved / 5);
 }
 
-TEST(UnseenMembers, WithoutBeamsEverythingIs) {
+TEST(UnseenMembers, WithoutBeamsEveryMemberIsUnseen) {
   EXPECT_NEAR(BeamEvidence().unseen_probability(FreeCriterion()), 1.0, 1e-9);
 }
 

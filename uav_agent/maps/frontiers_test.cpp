@@ -78,10 +78,10 @@ TEST(Frontiers, ClustersHoldEveryCubeOnceAndAreNotTooLong) {
   }
   std::ranges::sort(all);
   EXPECT_TRUE(std::ranges::equal(all, frontiers.cubes()));
-  EXPECT_EQ(frontiers.clusters(grid, 7.0, 2).size(), clusters.size() - 1) << "without the lone one";
+  EXPECT_EQ(frontiers.clusters(grid, 7.0, 2).size(), clusters.size() - 1) << "without the cluster of one cube";
 }
 
-TEST(Frontiers, NothingKnownOrAllKnownHasNone) {
+TEST(Frontiers, ThereAreNoneWhereNothingOrEverythingIsKnown) {
   VoxelGrid grid = grid_of(5.0);
   Frontiers frontiers;
   frontiers.update(grid, {});

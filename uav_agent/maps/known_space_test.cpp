@@ -18,7 +18,7 @@ Vector3d drawn(RandomStream& random, double half) {
   return {random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half)};
 }
 
-/// As any tool reads it that stands on OctoMap.
+/// Reads a file as any tool does that uses OctoMap.
 std::unique_ptr<octomap::OcTree> read_back(const std::string& file) {
   std::istringstream in(file);
   auto tree = std::make_unique<octomap::OcTree>(0.1);
@@ -59,7 +59,7 @@ class DrawnSpace : public testing::TestWithParam<std::uint64_t> {
   KnownSpace space_{kCellM, kFreeCellM};
 };
 
-TEST_P(DrawnSpace, IndexesAreWhatTheTreesMakeOfThem) {
+TEST_P(DrawnSpace, IndexesHoldTheSameAsTheTrees) {
   HitBlocks hits(kCellM);
   space_.visit_hits(-kFarW, kFarW, [&](const Vector3d& p_W) {
     const Eigen::Vector3i cell = (p_W / kCellM).array().floor().cast<int>();
@@ -120,7 +120,7 @@ TEST_P(DrawnSpace, OctoMapReadsWhatIsKnown) {
     tree->prune();
     std::ostringstream again;
     tree->writeBinaryConst(again);
-    EXPECT_EQ(again.str(), file) << "to the byte as OctoMap writes it, and nothing is left to prune";
+    EXPECT_EQ(again.str(), file) << "OctoMap writes the same bytes, and has nothing to prune";
   }
 }
 
@@ -145,7 +145,7 @@ TEST(KnownSpace, HitsAreNeverUndoneAndRaysAreCountedOneByOne) {
   EXPECT_EQ(known_at(*tree, hit_W + Vector3d(0.0, 0.0, 4.0)), Known::nothing);
 }
 
-TEST(KnownSpace, AFileIsAsSmallAsItGets) {
+TEST(KnownSpace, AFileIsAsSmallAsPossible) {
   KnownSpace space(kCellM, kFreeCellM);
   EXPECT_EQ(read_back(space.octomap_file(1))->size(), 0U);
   space.add_rays(space.passed_by_rays({0.5, 0.5, 0.5}, {{3.0, 0.5, 0.5}}));
@@ -177,7 +177,7 @@ TEST(KnownSpace, AHitInFreeSpaceLeavesTheRestOfItFree) {
   }
 }
 
-TEST(KnownSpace, BeyondTheTreeIsNothing) {
+TEST(KnownSpace, NothingIsKnownBeyondTheTree) {
   KnownSpace space(kCellM, kFreeCellM);
   EXPECT_FALSE(space.add_hit({1e7, 0.0, 0.0}));
   EXPECT_EQ(space.rays_at({1e7, 0.0, 0.0}), 0);

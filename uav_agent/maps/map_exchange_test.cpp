@@ -28,7 +28,7 @@ struct MapKeeper {
 /// UAVs in a line: 0 hears 1, 1 hears both, 2 hears 1.
 class Fleet {
  public:
-  /// @param lose  every so many messages one is lost; 0: none.
+  /// @param lose  one of so many messages is lost; 0: none.
   void round(int lose = 0) {
     now_ += 200;
     for (std::size_t i = 0; i < kFleet; ++i) {
@@ -74,7 +74,7 @@ void learn(Fleet& fleet) {
   for (VoxelGrid::Id id = 0; id < 4000; id += 13) fleet[1].grid.mark(id, 3);
 }
 
-TEST(MapExchange, EverybodyGetsTheSameMapEvenOverOthers) {
+TEST(MapExchange, AllUavsGetTheSameMapEvenThroughOthers) {
   Fleet fleet;
   learn(fleet);
   int rounds = 0;
@@ -87,7 +87,7 @@ TEST(MapExchange, EverybodyGetsTheSameMapEvenOverOthers) {
   EXPECT_TRUE(fleet[2].grid.marked(13, 3));
 }
 
-TEST(MapExchange, LostMessagesOnlyTakeLonger) {
+TEST(MapExchange, WithLostMessagesTheExchangeOnlyTakesLonger) {
   Fleet fleet;
   learn(fleet);
   int rounds = 0;

@@ -26,7 +26,7 @@ NewsRadio::Config drawn_radio(RandomStream& random) {
   return config;
 }
 
-/// Everybody hears all, or only those before and behind it in a row.
+/// Either all UAVs hear each other, or each hears only its neighbours in a row.
 void draw_links(NewsRadio& radio, RandomStream& random) {
   if (random.uniform() < 0.5) return;
   radio.linked = [](std::size_t i, std::size_t j) { return i + 1 == j || j + 1 == i; };
@@ -39,7 +39,7 @@ TEST(MapNews, AllKnowTheSameInTheEndWhateverIsLostAndNoSecondHasMoreBytesThanItM
     const NewsRadio::Config config = drawn_radio(random);
     NewsRadio radio(config, seed);
     draw_links(radio, random);
-    for (int i = 0; i < 200; ++i) {  // they talk while they learn
+    for (int i = 0; i < 200; ++i) {  // they send news while their maps grow
       const auto uav = static_cast<std::size_t>(random.uniform() * static_cast<double>(config.uavs));
       draw_space(*radio[uav].map, random, {0.0, 0.0, 10.0}, 40.0, 8);
       radio.exchange();
@@ -49,7 +49,7 @@ TEST(MapNews, AllKnowTheSameInTheEndWhateverIsLostAndNoSecondHasMoreBytesThanItM
   }
 }
 
-TEST(MapNews, AUavThatStartsAnewIsToldEverythingAgainAndTellsAnew) {
+TEST(MapNews, ARestartedUavReceivesEverythingAgainAndSendsItsNews) {
   constexpr int kDrawn = 10, kMost = 2000;
   for (std::uint64_t seed = 1; seed <= kDrawn; ++seed) {
     RandomStream random(seed, "news_restart", 0);
@@ -72,8 +72,8 @@ TEST(MapNews, AUavThatStartsAnewIsToldEverythingAgainAndTellsAnew) {
   }
 }
 
-/// After they agree, each of two in turn.
-TEST(MapNews, ATellerThatStartsAnewHearsOfItsOwnMapFromThoseThatItTold) {
+/// After two maps agree, the test restarts one of the UAVs: the one that sent its map, or the one that received it.
+TEST(MapNews, ARestartedUavReceivesAgainWhatItKnew) {
   for (const std::size_t restarted : {0U, 1U}) {
     NewsRadio radio({}, 5);
     RandomStream random(5, "news_own", 0);
@@ -87,8 +87,9 @@ TEST(MapNews, ATellerThatStartsAnewHearsOfItsOwnMapFromThoseThatItTold) {
   }
 }
 
-/// 2 knows what 0 told it, and leaves it to 0 to tell 1, but for one thing: the 0 that 1 hears was started anew.
-TEST(MapNews, NothingIsLeftToATellerThatHasLostIt) {
+/// UAV 2 knows the map of UAV 0, and would leave it to UAV 0 to send it to UAV 1. But UAV 0 was restarted before UAV 1
+/// hears it, and has lost the map.
+TEST(MapNews, NoUavLeavesNewsToASenderThatHasLostThem) {
   NewsRadio::Config config;
   config.uavs = 3;
   config.news.bytes_per_s = 2'000.0;
@@ -167,7 +168,7 @@ TEST(MapNews, NewsOfUnknownSpaceComesBeforeNewsOfPartlyKnownSpace) {
   EXPECT_FALSE(radio.knows_all_of(0, 1)) << "the test has a backlog";
 }
 
-TEST(MapNews, IsToldOnceToAllAndNotBackAndPassedOnOnlyToThoseThatDoNotHearTheTeller) {
+TEST(MapNews, NewsAreSentOnceAndPassedOnOnlyToUavsThatDoNotHearTheSender) {
   for (const bool row : {false, true}) {
     NewsRadio::Config config;
     config.uavs = 4;
@@ -191,7 +192,7 @@ TEST(MapNews, IsToldOnceToAllAndNotBackAndPassedOnOnlyToThoseThatDoNotHearTheTel
   }
 }
 
-TEST(MapNews, AUavThatHasNothingToTellIsNearlySilent) {
+TEST(MapNews, AUavThatHasNoNewsIsNearlySilent) {
   NewsRadio radio({}, 4);
   RandomStream random(4, "news_idle", 0);
   draw_space(*radio[0].map, random, Vector3d::Zero(), 30.0, 1000);
@@ -203,10 +204,10 @@ TEST(MapNews, AUavThatHasNothingToTellIsNearlySilent) {
   NewsRadio alone({}, 4);
   alone.linked = [](std::size_t, std::size_t) { return false; };
   for (int i = 0; i < 100; ++i) alone.exchange();
-  EXPECT_EQ(alone[0].bytes_sent(), 0U) << "nobody is in sight";
+  EXPECT_EQ(alone[0].bytes_sent(), 0U) << "no other UAV is in sight";
 }
 
-TEST(MapNews, AChunkThatChangesAllTheTimeIsToldOnceASecond) {
+TEST(MapNews, AChunkThatChangesAllTheTimeIsSentOnceASecond) {
   NewsRadio radio({}, 8);
   for (int i = 0; i < 40; ++i) radio.exchange();
   const std::size_t before = radio[0].sent.size();
@@ -218,7 +219,7 @@ TEST(MapNews, AChunkThatChangesAllTheTimeIsToldOnceASecond) {
   EXPECT_GE(radio[0].sent.size() - before, 9U);
 }
 
-TEST(MapNews, ACubeThatATellerVacatesStaysOccupiedForItsListener) {
+TEST(MapNews, ACubeThatTheSenderVacatesStaysOccupiedForItsListener) {
   NewsRadio radio({}, 6);
   const Vector3d p_W(3.1, 0.1, 0.1);
   radio[0].map->hear(radio.map(0).cube_of(p_W), 0, Space::occupied, kOwn);
@@ -226,11 +227,11 @@ TEST(MapNews, ACubeThatATellerVacatesStaysOccupiedForItsListener) {
   EXPECT_EQ(radio.map(1).at(p_W), Space::occupied);
   radio[0].map->vacate(p_W, 0.1);
   for (int i = 0; i < 100; ++i) radio.exchange();
-  EXPECT_EQ(radio.map(0).at(p_W), Space::unknown) << "it is not told back";
+  EXPECT_EQ(radio.map(0).at(p_W), Space::unknown) << "its listener does not send the cube back";
   EXPECT_EQ(radio.map(1).at(p_W), Space::occupied);
 }
 
-TEST(MapNews, NothingIsTakenOfWhatIsDamagedOrForeign) {
+TEST(MapNews, DamagedOrForeignMessagesLeaveTheMapUnchanged) {
   NewsRadio radio({}, 7);
   RandomStream random(7, "news_damage", 0);
   draw_space(*radio[0].map, random, Vector3d::Zero(), 20.0, 500);
@@ -261,7 +262,7 @@ TEST(MapNews, NothingIsTakenOfWhatIsDamagedOrForeign) {
 
 /// A damaged message that still reads as a message may make the map wrong. It does no other harm, and later messages
 /// correct the map.
-TEST(MapNews, DamagedMessagesNeitherBreakAnythingNorStopTheTelling) {
+TEST(MapNews, DamagedMessagesNeitherBreakAnythingNorStopTheNews) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     NewsRadio radio({}, seed);
     RandomStream random(seed, "news_flips", 0);
@@ -288,7 +289,7 @@ TEST(MapNews, DamagedMessagesNeitherBreakAnythingNorStopTheTelling) {
   }
 }
 
-TEST(MapNews, ADamagedNumberDoesNotKeepATellerTelling) {
+TEST(MapNews, ADamagedNumberDoesNotMakeTheSenderRepeatItsNewsForEver) {
   NewsRadio radio({}, 10);
   for (int i = 0; i < 40; ++i) radio.exchange();
   radio.damage = [&](std::size_t sender, std::vector<std::uint8_t>& bytes) {
@@ -297,7 +298,7 @@ TEST(MapNews, ADamagedNumberDoesNotKeepATellerTelling) {
   RandomStream random(10, "news_number", 0);
   draw_space(*radio[0].map, random, Vector3d::Zero(), 10.0, 300);
   for (int i = 0; i < 20; ++i) radio.exchange();
-  EXPECT_TRUE(radio.knows_all_of(1, 0)) << "these were taken in";
+  EXPECT_TRUE(radio.knows_all_of(1, 0)) << "the damaged messages were accepted";
   radio.damage = nullptr;
   for (int i = 0; i < 100; ++i) radio.exchange();
   const std::size_t before = radio[0].bytes_sent();
@@ -336,7 +337,7 @@ TEST(MapNews, AUavHearsTheFirst127UavsThatItMeets) {
     known += radio.map(kHub).known(cube_of(uav)).space == Space::occupied;
     EXPECT_EQ(radio.map(uav).known(cube_of(kHub)).space, Space::occupied) << uav;
   }
-  EXPECT_EQ(known, Acquaintances::kMostSlots + 1) << "those, and its own cube";
+  EXPECT_EQ(known, Acquaintances::kMostSlots + 1) << "the cubes of those UAVs, and its own";
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ bool all_unknown(const WorldMap::Chunk& chunk) {
   return std::ranges::all_of(chunk, [](const MapLevel::Known& cube) { return cube.space == Space::unknown; });
 }
 
-/// Some that touch each other, across the origin, too, and some that are as far away as the tree reaches.
+/// Draws chunks that touch each other, also across the origin, and chunks that are as far away as the tree reaches.
 ChunkSpaces drawn_chunks(RandomStream& random) {
   ChunkSpaces chunks;
   const bool free = drawn_below(random, 4) == 0;  // in large blocks
@@ -84,7 +84,7 @@ TEST(MapSubtrees, OctoMapReadsEachTreeAloneAndSeesTheSameCubes) {
     std::stringstream stream(std::string(bytes.begin(), bytes.end()));
     octomap::OcTree tree(kCellM);
     tree.readBinaryData(stream);
-    ASSERT_EQ(static_cast<std::size_t>(stream.tellg()), bytes.size()) << "it reads all of it";
+    ASSERT_EQ(static_cast<std::size_t>(stream.tellg()), bytes.size()) << "OctoMap reads all bytes";
     for (const auto& [at, chunk] : chunks) {
       const auto& [x, y, z] = at;
       for (int i = 0; i < 10 * 10 * 10; ++i) {  // and a cube beyond on all sides
@@ -126,7 +126,7 @@ TEST(MapSubtrees, AMapThatReadsATreeKnowsTheSameCubes) {
         heard += map.changed_at(chunk) > 0;
       }
     }
-    EXPECT_EQ(heard, chunks.size()) << "and no others";
+    EXPECT_EQ(heard, chunks.size()) << "no other chunk has changed";
   }
 }
 
@@ -142,7 +142,7 @@ TEST(MapSubtrees, UniformSpaceIsOneLeafOfUpToFourChunks) {
   EXPECT_EQ(fill(1, Space::free), 2U * 13U) << "the nodes above it";
   EXPECT_EQ(fill(2, Space::free), 2U * 12U);
   EXPECT_EQ(fill(4, Space::free), 2U * 11U);
-  EXPECT_EQ(fill(8, Space::free), 2U * 11U) << "who reads it shall not need to count on more";
+  EXPECT_EQ(fill(8, Space::free), 2U * 11U) << "readers need not expect larger leaves";
   EXPECT_EQ(fill(1, Space::occupied), 2U * 13U);
   EXPECT_EQ(fill(2, Space::occupied), 2U * 13U);
   EXPECT_TRUE(tree_of({}).empty());
@@ -153,10 +153,10 @@ TEST(MapSubtrees, NoTreeMakesAMapLargerThanItsBytesMay) {
   const std::vector<std::uint8_t> all_free = {0x55, 0x55}, all_occupied = {0xAA, 0xAA};
   EXPECT_FALSE(read_subtrees(all_free, 3)) << "32 km of free space";
   EXPECT_FALSE(read_subtrees(all_occupied, 3));
-  std::vector<std::uint8_t> many(2, 0xFF);  // all but the leaves inner nodes: as many leaves as bytes can have
+  std::vector<std::uint8_t> many(2, 0xFF);  // only inner nodes, no leaves
   for (int i = 0; i < 1 << 13; ++i) many.insert(many.end(), {0xFF, 0xFF});
   EXPECT_FALSE(read_subtrees(many, 3)) << "without an end";
-  const auto free_below = [](int depth) {  // eight leaves whose nodes are alone in theirs
+  const auto free_below = [](int depth) {  // eight leaves below a chain of nodes with one child each
     std::vector<std::uint8_t> bytes;
     for (int i = 1; i < depth; ++i) bytes.insert(bytes.end(), {0x03, 0x00});
     bytes.insert(bytes.end(), {0x55, 0x55});
@@ -202,7 +202,7 @@ TEST(MapSubtrees, DamagedTreesAreRefusedOrWithinBounds) {
 }
 
 /// Regions that are completely free take no memory, and no received information is lost.
-TEST(HeardMap, StaysSmallAndKnowsAllThatItWasTold) {
+TEST(HeardMap, StaysSmallAndKnowsAllThatItReceived) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream random(seed, "heard_map", 0);
     WorldMap map(WorldMap::Config{});
@@ -232,7 +232,7 @@ TEST(HeardMap, StaysSmallAndKnowsAllThatItWasTold) {
   }
 }
 
-TEST(HeardMap, AChunkIsReadAsItsCubesAreKnown) {
+TEST(HeardMap, ReadingAChunkGivesWhatIsKnownOfItsCubes) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "read_chunks", 0);
     WorldMap::Config config;

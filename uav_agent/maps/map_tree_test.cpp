@@ -15,7 +15,7 @@ namespace {
 
 using CubeNumber = std::tuple<int, int, int>;
 
-/// All cubes that a tree tells of.
+/// All cubes that a tree contains.
 std::map<CubeNumber, Space> cubes_in(const std::vector<std::uint8_t>& bytes) {
   std::map<CubeNumber, Space> cubes;
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -68,7 +68,7 @@ TEST(MapTree, HasAllThatTheMapKnowsAsItGrows) {
     }
     MapTree late;
     ASSERT_TRUE(late.update(map));
-    EXPECT_EQ(late.bytes(), tree.bytes()) << "it does not matter since when somebody looks";
+    EXPECT_EQ(late.bytes(), tree.bytes()) << "a tree that is made later is the same";
   }
 }
 

@@ -163,7 +163,7 @@ TEST(OccupancyMap, AHeardMapIsAddedButItsFreeSpaceIsNotProof) {
       const bool occupied = own.occupied(p) || other.occupied(p);
       ASSERT_EQ(both.occupied(p), occupied);
       ASSERT_EQ(both.known_free(p), !occupied && (own.known_free(p) || other.known_free(p)));
-      ASSERT_EQ(both.known_free(p, 12), !occupied && own.known_free(p, 12)) << "a word is not proof";
+      ASSERT_EQ(both.known_free(p, 12), !occupied && own.known_free(p, 12)) << "a report is not proof";
       free_by_word += both.known_free(p) && !own.known_free(p) ? 1 : 0;
     }
     EXPECT_GT(free_by_word, 50);
@@ -174,7 +174,7 @@ TEST(OccupancyMap, AHeardMapIsAddedButItsFreeSpaceIsNotProof) {
   }
 }
 
-TEST(OccupancyMap, DamagedWordsAreNotHeard) {
+TEST(OccupancyMap, DamagedReportsAreRefused) {
   OccupancyMap map = drawn_map(1);
   const std::string told = drawn_map(2).octomap_bytes(), before = map.octomap_bytes(1);
   RandomStream random(1, "cut", 0);
@@ -186,7 +186,7 @@ TEST(OccupancyMap, DamagedWordsAreNotHeard) {
   EXPECT_EQ(map.octomap_bytes(1), before);
 }
 
-TEST(OccupancyMap, EmptyKnowsNothing) {
+TEST(OccupancyMap, AnEmptyMapKnowsNothing) {
   const OccupancyMap map;
   EXPECT_TRUE(map.empty());
   EXPECT_FALSE(map.occupied(Vector3d::Zero()));

@@ -14,7 +14,7 @@ Isometry3d pose(const Vector3d& p_W, double about_x, double about_z = 0.0) {
          Eigen::AngleAxisd(about_x, Vector3d::UnitX());
 }
 
-TEST(RepeatedScans, AUavThatHoversSaysEachThingOnce) {
+TEST(RepeatedScans, ScansOfAHoveringUavAreRepeated) {
   RepeatedScans scans(kWidthM);
   RandomStream random(1, "hover", 0);
   for (int round = 0; round < 5; ++round) {
@@ -26,14 +26,14 @@ TEST(RepeatedScans, AUavThatHoversSaysEachThingOnce) {
   }
 }
 
-TEST(RepeatedScans, AUavThatTurnsSaysSomethingNew) {
+TEST(RepeatedScans, ScansOfATurningUavAreNew) {
   RepeatedScans scans(kWidthM);
   for (int step = 0; step < 30; ++step) EXPECT_FALSE(scans.ask(pose(Vector3d::Zero(), 0.0, 0.05 * step)).all) << step;
   EXPECT_TRUE(scans.ask(pose(Vector3d::Zero(), 0.0, 0.5)).all);
 }
 
 /// While a UAV flies straight on, its beams ahead and behind repeat earlier ones, and the others do not.
-TEST(RepeatedScans, BeamsAlongTheWayRepeatThoseOfBefore) {
+TEST(RepeatedScans, BeamsAlongThePathRepeatEarlierOnes) {
   for (std::uint64_t world = 0; world < 50; ++world) {
     RandomStream random(world, "way", 0);
     const auto drawn = [&] { return Vector3d(random.normal(), random.normal(), random.normal()).normalized(); };

@@ -34,7 +34,7 @@ BeamScan drawn_scan(const LidarConfig& lidar, std::uint64_t world) {
   return scan;
 }
 
-TEST(ScanBundler, OfSingleBeamsSaysOfEachWhatItIs) {
+TEST(ScanBundler, BundlesOfOneBeamProveWhatTheBeamDoes) {
   const LidarConfig lidar;
   const BeamScan scan = drawn_scan(lidar, 1);
   ScanBundler bundler(lidar, 0.0);
@@ -68,7 +68,7 @@ TEST(ScanBundler, OfSingleBeamsSaysOfEachWhatItIs) {
 }
 
 /// For all numbers of rings and columns of a LiDAR, each beam is in a bundle, and no bundle proves more than its beams.
-TEST(ScanBundler, SaysOfABundleWhatAllOfItsBeamsSay) {
+TEST(ScanBundler, ABundleProvesWhatAllItsBeamsProve) {
   struct Kind {
     int rings, columns;
     double fov_deg;
@@ -140,7 +140,7 @@ TEST(ScanBundler, TheNeighboursOfABundleKnowItsHit) {
   }
 }
 
-TEST(ScanBundler, WithoutReturnCountsOnlyWhereItsFirstStretchIsKnownToBeFree) {
+TEST(ScanBundler, ABeamWithoutReturnCountsOnlyIfItsFirstStretchIsKnownToBeFree) {
   const LidarConfig lidar;
   BeamScan scan{.columns = lidar.columns};
   scan.beams.assign(static_cast<std::size_t>(lidar.rings * lidar.columns), {BeamState::none, 0.0F});
@@ -159,7 +159,7 @@ TEST(ScanBundler, WithoutReturnCountsOnlyWhereItsFirstStretchIsKnownToBeFree) {
   const std::vector<BeamBundle>& bundles = bundler.bundle(scan, {}, below).bundles;
   EXPECT_EQ(bundles.size(), 4U * 110U + 1U);
   for (const BeamBundle& bundle : bundles) {
-    EXPECT_TRUE(bundle.direction_W.z() < 0.0F || bundle.free_m == 5.0F) << "what returned proves its own";
+    EXPECT_TRUE(bundle.direction_W.z() < 0.0F || bundle.free_m == 5.0F) << "a beam that returned proves its own path";
   }
 }
 
@@ -179,14 +179,14 @@ TEST(ScanBundler, ABeamThatMayHaveBeenLostEndsAtTheFirstOccupiedCube) {
   std::size_t without_return = 0;
   for (std::size_t i = 0; i < bundles.size(); ++i) {
     const bool none = whole[i].free_m == 50.0F, ends = none && bundles[i].direction_W.z() < 0.0F;
-    EXPECT_EQ(bundles[i].free_m, ends ? 11.0F : whole[i].free_m) << "what returned proves its own";
+    EXPECT_EQ(bundles[i].free_m, ends ? 11.0F : whole[i].free_m) << "a beam that returned proves its own path";
     EXPECT_LE(bundles[i].around_free_m, bundles[i].free_m);
     without_return += none;
   }
   EXPECT_EQ(asked, without_return);
 }
 
-TEST(ScanBundler, AScanInDoubtSaysNothing) {
+TEST(ScanBundler, AScanInDoubtHasNoBundlesAndNoHits) {
   const LidarConfig lidar;
   BeamScan scan = drawn_scan(lidar, 2);
   scan.doubt = ScanDoubt::misfit;

@@ -20,7 +20,7 @@ AgentConfig traced_fleet() {
   return config;
 }
 
-/// UAV 0 with its map; UAV 1 comes and goes, UAV 2 is heard all the time.
+/// UAV 0 with its map. The link to UAV 1 comes and goes, and UAV 2 is heard all the time.
 class UavTracesTest : public testing::Test {
  protected:
   UavTracesTest() {
@@ -65,7 +65,7 @@ class UavTracesTest : public testing::Test {
   Tick now_ = 0;
 };
 
-TEST_F(UavTracesTest, WhereAUavFliesUnheardIsDoubtedWhenItIsHeardAgain) {
+TEST_F(UavTracesTest, HitsWhereAUavMayHaveFlownUnheardAreDoubtedOnceItIsHeardAgain) {
   for (int drawn = 0; drawn < 40; ++drawn) {
     map_ = WorldMap(WorldMap::Config());
     map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
@@ -128,7 +128,7 @@ TEST_F(UavTracesTest, HitsThatCannotBeTheUavAreNotDoubted) {
   for (const Vector3d& hit_W : pole_W) EXPECT_FALSE(doubted(hit_W)) << "it is longer than a UAV";
 }
 
-TEST_F(UavTracesTest, AUavThatIsNeverHeardAgainStays) {
+TEST_F(UavTracesTest, HitsOnAUavThatIsNeverHeardAgainStayStructure) {
   const std::vector<Vector3d> hits_W = body({12.0, 0.0, 10.0});
   wait(Vector3d(10.0, 0.0, 10.0), 3.0);
   exchange(std::nullopt, hits_W);
@@ -150,7 +150,7 @@ TEST_F(UavTracesTest, AFlickeringLinkIsOneAbsence) {
   for (const Vector3d& hit_W : met_W) EXPECT_TRUE(doubted(hit_W));
 }
 
-TEST_F(UavTracesTest, AUavThatReportsWrongPositionsIsDoubted) {
+TEST_F(UavTracesTest, HitsOnAUavThatReportedWrongPositionsAreDoubted) {
   for (int drawn = 0; drawn < 40; ++drawn) {
     map_ = WorldMap(WorldMap::Config());
     map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
@@ -168,7 +168,7 @@ TEST_F(UavTracesTest, AUavThatReportsWrongPositionsIsDoubted) {
     for (int i = 0; i < wrong_exchanges; ++i) {
       p_W += v_W * 0.05;
       const Vector3d told_W = stuck ? stuck_W : Vector3d(p_W + offset_W);
-      // The returns of a body are known for its own near the place that it reports, and are structure elsewhere.
+      // Near the place that a UAV reports, returns count as its body. Elsewhere, they count as structure.
       const bool taken = (told_W - p_W).norm() > 1.2 && i % 10 == 0;
       const std::vector<Vector3d> hits_W = taken ? body(p_W) : std::vector<Vector3d>();
       met_W.insert(met_W.end(), hits_W.begin(), hits_W.end());
@@ -183,7 +183,7 @@ TEST_F(UavTracesTest, AUavThatReportsWrongPositionsIsDoubted) {
 }
 
 // Otherwise isolated structure would be doubted wherever UAVs turn, brake, or report with noise.
-TEST_F(UavTracesTest, AUavThatReportsRightPositionsIsHeard) {
+TEST_F(UavTracesTest, AUavThatReportsRightPositionsCountsAsHeard) {
   for (int drawn = 0; drawn < 20; ++drawn) {
     Vector3d p_W = drawn_place(), v_W = Vector3d::Zero(), to_mps = Vector3d::Zero();
     wait(std::nullopt, 1.0);
@@ -199,8 +199,8 @@ TEST_F(UavTracesTest, AUavThatReportsRightPositionsIsHeard) {
   }
 }
 
-// Its velocity is estimated from its positions, from zero on after each gap.
-TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesIsHeardAfterAGapHoweverFastItIs) {
+// The agent estimates the velocity from the positions, and begins with zero after each gap.
+TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesCountsAsHeardAfterAGapHoweverFastItIs) {
   for (int drawn = 0; drawn < 30; ++drawn) {
     Vector3d p_W = drawn_place();
     const Vector3d direction(random_.normal(), random_.normal(), random_.normal());
@@ -217,8 +217,8 @@ TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesIsHeardAfterAGapHoweverFastItIs
   }
 }
 
-// No UAV flies so fast.
-TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesAndJumpsIsDoubted) {
+// No UAV flies as fast as this one jumps.
+TEST_F(UavTracesTest, HitsOnAUavThatReportsNoVelocitiesAndJumpsAreDoubted) {
   for (int drawn = 0; drawn < 10; ++drawn) {
     map_ = WorldMap(WorldMap::Config());
     map_.on_met([this](const Eigen::Vector3i& cube, bool news) { traces_.met(cube, news); });
@@ -234,7 +234,7 @@ TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesAndJumpsIsDoubted) {
   }
 }
 
-TEST_F(UavTracesTest, AReportedHitIsDoubtedAndOnlyItsTellerSettlesIt) {
+TEST_F(UavTracesTest, OnlyTheSenderOfADoubtedHitCanResolveTheDoubt) {
   const Vector3d p_W(12.0, 0.0, 10.0), met_W(13.0, 1.0, 10.0);
   const Eigen::Vector3i cube = map_.cube_of(met_W);
   wait(p_W, 3.0);
@@ -253,7 +253,7 @@ TEST_F(UavTracesTest, AReportedHitIsDoubtedAndOnlyItsTellerSettlesIt) {
   EXPECT_EQ(map_.at(met_W), Space::free);
 }
 
-TEST_F(UavTracesTest, ManyHitsAreBounded) {
+TEST_F(UavTracesTest, TheNumberOfTracedCubesIsBounded) {
   wait(Vector3d(10.0, 0.0, 10.0), 3.0);
   for (int i = 0; i < 400; ++i) {
     std::vector<Vector3d> hits_W;

@@ -12,7 +12,7 @@ namespace {
 
 using Id = VoxelGrid::Id;
 
-/// Turned and shifted, 7 x 5 x 4 cubes of 2.5 m, chunks of 32.
+/// A grid that is turned and shifted: 7 x 5 x 4 cubes of 2.5 m, in chunks of 32.
 VoxelGrid turned_grid() {
   Isometry3d X_WG(Eigen::Translation3d(-3.0, 11.0, 0.5));
   X_WG.linear() = rotation_z(0.7);
@@ -90,7 +90,7 @@ TEST(VoxelGrid, NeighboursLieBeyondTheirFace) {
   }
 }
 
-TEST(VoxelGrid, OutsideIsNowhereHoweverFar) {
+TEST(VoxelGrid, PlacesOutsideHaveNoCubeHoweverFar) {
   const VoxelGrid grid = turned_grid();
   for (const Vector3d& p : {Vector3d(1e30, 0, 0), Vector3d(0, 0, -1), Vector3d(NAN, 0, 0), Vector3d(-40, 11, 2)}) {
     EXPECT_FALSE(grid.at(p));
@@ -139,7 +139,7 @@ TEST(VoxelGrid, OccupiedCubesHideWhatIsBehind) {
   const Vector3d a(0.5, 0.5, 0.5), b(9.5, 0.5, 0.5);
   EXPECT_TRUE(grid.sees(a, b)) << "unknown cubes do not hide";
   grid.raise(9, VoxelState::occupied);
-  EXPECT_TRUE(grid.sees(a, b)) << "b itself";
+  EXPECT_TRUE(grid.sees(a, b)) << "b does not hide itself";
   grid.raise(5, VoxelState::occupied);
   EXPECT_FALSE(grid.sees(a, b));
 }
@@ -161,7 +161,7 @@ TEST(VoxelGrid, ChunksCarryTheWholeMap) {
   EXPECT_TRUE(same(from, to));
 }
 
-TEST(VoxelGrid, ChunksAreNoLongerThanTheyCanTell) {
+TEST(VoxelGrid, ChunksWithMoreCubesThanAMessageCanNumberAreRefused) {
   const auto grid_of = [](std::size_t chunk) { return VoxelGrid(Isometry3d::Identity(), {60, 60, 40}, 1.0, chunk); };
   for (const std::size_t chunk : {0U, 65'536U, 70'000U, 144'000U, 1'000'000U}) {
     EXPECT_THROW(grid_of(chunk), std::invalid_argument) << chunk;
@@ -200,7 +200,7 @@ TEST(VoxelGrid, MergingIsTheSameInAnyOrderAndTwice) {
   EXPECT_EQ(ab.revision(), revision) << "nothing new";
 }
 
-TEST(VoxelGrid, NonsenseIsNotMerged) {
+TEST(VoxelGrid, RandomBytesLeaveStatesValidAndACutChunkIsRefused) {
   VoxelGrid grid = turned_grid();
   GridDraw draw;
   for (int i = 0; i < 2000; ++i) {
@@ -250,7 +250,7 @@ TEST(VoxelGrid, CubesGrowOnlyIfThereWereTooManyAndNoMoreThanNeeded) {
   EXPECT_GT(larger, 20);
 }
 
-TEST(VoxelGrid, WhySmallCubesAreTooManyIsSaidWithWhatWouldFit) {
+TEST(VoxelGrid, TheMessageAboutTooManyCubesSaysWhatWouldFit) {
   EXPECT_EQ(coarse_voxels_text(1.0, 2.14, {1200.0, 1000.0, 100.0}),
             "voxel_m is 2.14 m instead of 1 m: the map of 1200 x 1000 x 100 m would have 120 million cubes, and 16 "
             "million are the most; with voxel_m=1, a map of 400 x 400 x 100 m fits");

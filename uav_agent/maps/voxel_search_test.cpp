@@ -103,7 +103,7 @@ TEST(VoxelSearch, NoCornerIsCut) {
   EXPECT_EQ(find_voxel_path(grid, 0, 3, free), (std::vector<Id>{2, 3}));
 }
 
-TEST(VoxelSearch, AWeightMakesItFasterAndAtMostSoMuchLonger) {
+TEST(VoxelSearch, AWeightMakesPathsAtMostThatMuchLonger) {
   const VoxelGrid grid = scattered(0.3, 5);
   const Passable free = [&](Id id) { return grid.state(id) != VoxelState::occupied; };
   const auto distances = distances_in(grid, free);

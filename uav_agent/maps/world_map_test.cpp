@@ -18,7 +18,7 @@ Vector3d drawn_unit(RandomStream& random) {
   return Vector3d(random.normal(), random.normal(), random.normal()).normalized();
 }
 
-/// The map as its header says it is, cube by cube and without a thought of speed.
+/// The map as its header defines it, computed cube by cube without regard to speed.
 class SlowMap {
  public:
   using Cube = std::tuple<int, int, int>;
@@ -26,7 +26,7 @@ class SlowMap {
   explicit SlowMap(const WorldMap::Config& config) : config_(config), levels_(config.to_m.size()) {}
 
   struct Windows {
-    bool sure = true;  ///< false: it passes so near to an edge that rounding decides; the maps need not agree
+    bool sure = true;  ///< false: the beam passes so near to an edge that rounding decides
     std::vector<Cube> cubes = {};
   };
   Windows windows(const BeamBundle& bundle, std::size_t level) const {
@@ -132,7 +132,7 @@ std::vector<DrawnScan> drawn_scans(std::uint64_t world, const SlowMap& slow, std
   return scans;
 }
 
-TEST(WorldMap, SaysWhatTheCriterionSaysOfEachCube) {
+TEST(WorldMap, JudgesEachCubeByTheCriterion) {
   for (const std::vector<double>& to_m : {std::vector<double>{9.0}, {5.0, 14.0}}) {
     std::vector<std::size_t> free(to_m.size());
     for (std::uint64_t world = 1; world <= 2; ++world) {
@@ -152,7 +152,7 @@ TEST(WorldMap, SaysWhatTheCriterionSaysOfEachCube) {
         const Space space = map.at(p_W);
         ASSERT_EQ(space == Space::occupied, slow.occupied(p_W));
         if (space == Space::occupied) continue;
-        bool provable = false, proved = false;  // the map does not ask after each beam, but soon enough
+        bool provable = false, proved = false;  // the map judges not after each beam, but soon
         BeamEvidence all;
         for (std::size_t level = 0; level < to_m.size(); ++level) {
           const SlowMap::Gathered gathered = slow.gathered(p_W, level);
@@ -184,7 +184,7 @@ std::vector<BeamBundle> flood(double half_m) {
   return beams;
 }
 
-TEST(WorldMap, AHitIsKeptWhateverPassesAndOpensWhatWasFree) {
+TEST(WorldMap, AHitIsKeptWhateverBeamsPassAndTakesOneFreeCube) {
   WorldMap map(WorldMap::Config{});
   const std::vector<BeamBundle> all = flood(4.0);
   for (int i = 0; i < 60; ++i) map.insert(all, {});  // long enough for blocks that are free all over to be taken back
@@ -200,7 +200,7 @@ TEST(WorldMap, AHitIsKeptWhateverPassesAndOpensWhatWasFree) {
   for (int i = 0; i < 60; ++i) map.insert(all, {});
   EXPECT_EQ(map.at(thing_W), Space::occupied);
   EXPECT_EQ(map.counts().free[0], free - 1);
-  EXPECT_LE(map.counts().blocks, blocks + 1) << "what is free all over costs nothing";
+  EXPECT_LE(map.counts().blocks, blocks + 1) << "blocks that are free all over take no memory";
 }
 
 TEST(WorldMap, AUavMakesItsOwnPlaceFreeButNothingThatWasHit) {
@@ -227,7 +227,7 @@ TEST(WorldMap, AUavThatHasMovedOnLeavesItsPlaceUnknown) {
   EXPECT_EQ(map.at({3.1, 0.1, 0.1}), Space::occupied);
 }
 
-/// A doubt proves nothing, at any level: after it as many beams are needed as of a map that never saw any.
+/// A doubt proves nothing at any level. After it, a cube needs as many beams as in a map that has seen none.
 TEST(WorldMap, ADoubtedCubeLosesItsEvidenceAndAllOthersKeepTheirs) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "doubt", 0);
@@ -264,7 +264,7 @@ TEST(WorldMap, ADoubtedCubeLosesItsEvidenceAndAllOthersKeepTheirs) {
     map.doubt(cube);
     map.insert({}, std::vector<Eigen::Vector3f>{thing_W.cast<float>()});
     for (int i = 0; i < needed; ++i) map.insert(some, {});
-    EXPECT_EQ(map.known(cube).space, Space::occupied) << "it was met again";
+    EXPECT_EQ(map.known(cube).space, Space::occupied) << "beams hit it again";
   }
 }
 
@@ -332,7 +332,7 @@ TEST(WorldMap, RemembersTheTellerOfEachCube) {
   map.hear({10, 10, 10}, 2, Space::free, 3);
   EXPECT_EQ(map.known({41, 41, 41}).space, Space::occupied);
   map.hear({42, 41, 41}, 0, Space::free, 4);
-  EXPECT_EQ(map.known({42, 41, 41}).teller, 3) << "the first who told";
+  EXPECT_EQ(map.known({42, 41, 41}).teller, 3) << "the first sender";
   WorldMap::Chunk chunk;
   for (const Eigen::Vector3i& at : {Eigen::Vector3i(0, 0, 0), Eigen::Vector3i(5, 5, 5), Eigen::Vector3i(4, 5, 5)}) {
     map.read(at, chunk);
@@ -351,7 +351,7 @@ TEST(WorldMap, TellsWhereSomethingChanged) {
   const std::uint64_t first = map.changed_at({0, 0, 0});
   EXPECT_GT(first, 0U);
   EXPECT_EQ(map.region_changed_at({0, 0, 0}), first);
-  map.hear({-3, 0, 0}, 2, Space::free, 1);  // 6 m to the west: of the chunk that ends 4 m there
+  map.hear({-3, 0, 0}, 2, Space::free, 1);  // from 6 m to 4 m to the west, in chunk -2
   EXPECT_EQ(map.changed_at({0, 0, 0}), first);
   EXPECT_GT(map.changed_at({-2, 0, 0}), first);
   EXPECT_GT(map.region_changed_at({-1, 0, 0}), first);
@@ -366,7 +366,7 @@ TEST(WorldMap, TellsWhereSomethingChanged) {
   EXPECT_EQ(map.regions().size(), 2U);
 }
 
-TEST(WorldMap, KnowsHowFarStructureIsAsItCameAndWent) {
+TEST(WorldMap, KnowsHowFarStructureIsAsItComesAndGoes) {
   WorldMap map(WorldMap::Config{});
   const Vector3d p_W(0.1, 0.1, 5.1);
   EXPECT_EQ(map.structure_distance_m(p_W), 4.0);

@@ -20,8 +20,8 @@ TEST(WorldMapWay, IsClearUpToTheFirstCubeThatIsOccupied) {
   EXPECT_EQ(map.clear_way_m({7.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 0.0) << "inside";
 }
 
-/// clear_way_m() passes over chunks without structure; it ends where a look at each sample ends, to the bit.
-TEST(WorldMapWay, IsClearAsFarAsALookAtEachSampleFinds) {
+/// clear_way_m() passes over chunks without structure; its result must be that of a check of each sample, to the bit.
+TEST(WorldMapWay, IsClearAsFarAsACheckOfEachSampleFinds) {
   RandomStream random(9, "world_map_way_test", 0, 0);
   for (const double cell_m : {0.5, 0.3}) {
     WorldMap map({.cell_m = cell_m, .distance_reach_m = 8.0 * cell_m});

@@ -15,7 +15,8 @@ BeamScan scan_of_nothing(const LidarConfig& lidar, Tick tick, double servo_angle
   return scan;
 }
 
-// Something hangs 0.6 m above a UAV that stands in the open: its LiDAR drops it as it drops the sky.
+// Something hangs 0.6 m above a UAV that stands in the open. It is too near for the LiDAR, which reports no return from
+// it, as from the sky.
 TEST(WorldMapper, AnObstacleTooNearForTheLidarIsNotTakenForSky) {
   const LidarConfig lidar;
   for (const double clear_m : {0.5, 1.2}) {
@@ -68,11 +69,11 @@ TEST(WorldMapper, BeamsThatAreLostOnAWallProveNothingBehindIt) {
       }
     }
     EXPECT_EQ(before, 144U);
-    EXPECT_EQ(behind > 0, lidar.no_return_p == 0.0) << "of 144: a LiDAR of which it takes each beam at its word";
+    EXPECT_EQ(behind > 0, lidar.no_return_p == 0.0) << "the mapper believes each beam of a LiDAR that loses no returns";
   }
 }
 
-TEST(WorldMapper, TakesInEachSoManyScansAndNoneOfWhichItDoubts) {
+TEST(WorldMapper, UsesEveryThirdScanAndNoneInDoubt) {
   const LidarConfig lidar;
   WorldMapper::Config config;
   config.every = 3;

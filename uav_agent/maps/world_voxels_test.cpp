@@ -60,7 +60,7 @@ TEST(WorldVoxels, EveryOccupiedCubeOfTheMapCountsOnceWhereItLies) {
   }
 }
 
-TEST(WorldVoxels, ACubeIsFreeWhereAllAboutItsMiddleIs) {
+TEST(WorldVoxels, AVoxelIsFreeIfAllSpaceAroundItsMiddleIs) {
   WorldMap map = map_above_ground();
   VoxelGrid grid = grid_of_site();
   const Id id = *grid.at(Vector3d(0.0, 0.0, 9.0)), beside = *grid.neighbour(id, 0);
@@ -106,12 +106,12 @@ TEST(WorldVoxels, AnUpdateFindsCubesThatBecameFreeOrLostTheirDoubt) {
   voxels.update(map, grid);
   const std::vector<Eigen::Vector3f> hits_W = {middle_W(cube).cast<float>()};
   map.insert({}, hits_W);                        // it was not a UAV,
-  tell(map, cube + Cube(1, 0, 0), Space::free);  // and something else of its chunk is told
+  tell(map, cube + Cube(1, 0, 0), Space::free);  // and another cube of its chunk is reported
   voxels.update(map, grid);
   EXPECT_EQ(voxels.hits(*grid.at(middle_W(cube))), 1);
 }
 
-TEST(WorldVoxels, LooksInTurnsFindTheSame) {
+TEST(WorldVoxels, ManyLimitedUpdatesFindTheSameAsAFullOne) {
   std::mt19937_64 random(3);
   WorldMap map = map_above_ground();
   for (int i = 0; i < 60; ++i) map.set_free(middle_W(drawn_cube(random)), 3.0);

@@ -41,7 +41,7 @@ class ActivityWords : public testing::Test {
   int count_ = 0;
 };
 
-TEST_F(ActivityWords, AreToldWhenTheyChangeAndEachSecond) {
+TEST_F(ActivityWords, AreReportedWhenTheyChangeAndEachSecond) {
   const auto first = step();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->mode, "on the ground");
@@ -107,7 +107,7 @@ TEST_F(ActivityWords, HaveAColourOnTheLivePage) {
   }
 }
 
-TEST_F(ActivityWords, AreTheOldOnesBetweenTwoGoals) {
+TEST_F(ActivityWords, StayTheSameBetweenTwoGoals) {
   doing(What::to_goal, Vector3d(9.0, 0.0, 5.0));
   facts_.speed_mps = 1.0;
   step();
@@ -120,8 +120,8 @@ TEST_F(ActivityWords, AreTheOldOnesBetweenTwoGoals) {
   EXPECT_FALSE(last_.goal_W);
 }
 
-// A strategy that waits at a place wants it again and again.
-TEST_F(ActivityWords, AreTheSameAsLongAsItRestsAtAPlace) {
+// A strategy that waits at a place sets it as its goal again and again.
+TEST_F(ActivityWords, StayTheSameWhileTheUavRestsAtAPlace) {
   doing(What::to_goal, Vector3d(9.0, 0.0, 5.0));
   facts_.p_WB = {9.0, 0.4, 5.0};
   steps(20);
@@ -138,7 +138,7 @@ TEST_F(ActivityWords, AreTheSameAsLongAsItRestsAtAPlace) {
   EXPECT_EQ(count_, 20) << "each second";
   EXPECT_EQ(last_.goal_W, Vector3d(9.0, 0.0, 5.0));
   doing(What::no_goal);
-  facts_.no_way = "no way";  // to another one
+  facts_.no_way = "no way";  // to another goal
   steps(30);
   EXPECT_EQ(last_.mode, "has no goal");
 }
@@ -169,10 +169,10 @@ TEST_F(ActivityWords, NameTheUavForWhichItWaits) {
   ASSERT_TRUE(step());
   EXPECT_EQ(last_.waits_for, "changi");
   facts_.waits_for.reset();
-  EXPECT_EQ(steps(5), 0) << "a short break is none";
+  EXPECT_EQ(steps(5), 0) << "a short break does not count";
   steps(10);
   EXPECT_EQ(last_.waits_for, "");
-  facts_.waits_for = 7;  // of whatever planner
+  facts_.waits_for = 7;  // a planner may name any number
   steps(20);
   EXPECT_EQ(last_.waits_for, "");
 }
@@ -182,7 +182,7 @@ TEST_F(ActivityWords, TellWhatHoldsAUavThatStands) {
   facts_.speed_mps = 2.0;
   facts_.held = {.by = Held::By::unproved};
   steps(60);
-  EXPECT_EQ(last_.mode, "flies to a goal") << "slower, perhaps";
+  EXPECT_EQ(last_.mode, "flies to a goal") << "it still flies, perhaps more slowly";
   facts_.speed_mps = 0.1;
   steps(20);
   EXPECT_EQ(last_.mode, "flies to a goal");
@@ -200,7 +200,7 @@ TEST_F(ActivityWords, TellWhatHoldsAUavThatStands) {
   doing(What::awaits_way_up, Vector3d(9.0, 0.0, 5.0));
   facts_.speed_mps = 0.0;
   steps(60);
-  EXPECT_EQ(last_.mode, "waits to be shown its way up") << "that is why";
+  EXPECT_EQ(last_.mode, "waits to be shown its way up") << "this mode says already why it stands";
 }
 
 TEST_F(ActivityWords, ArePlainForPlannersThatFlyThemselves) {

@@ -1,4 +1,4 @@
-// The on-board software as a whole, with a planner that only records what it is told.
+// The on-board software as a whole, with a planner that only records its input.
 #include "uav_agent/onboard/agent.hpp"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ class AgentTest : public testing::Test {
   AgentInput input_;
 };
 
-TEST_F(AgentTest, SaysNothingUntilItsPlannerDoes) {
+TEST_F(AgentTest, CommandsNothingUntilItsPlannerDoes) {
   const AgentOutput output = step();
   EXPECT_FALSE(output.trajectory);
   EXPECT_FALSE(output.gimbal);
@@ -93,7 +93,7 @@ TEST_F(AgentTest, RemembersBoxesAndRepeatsCommands) {
   tape_.answer = {};
   for (int i = 0; i < 200; ++i) {
     const AgentOutput output = step();
-    ASSERT_TRUE(output.trajectory) << "the controller holds after 0.1 s without";
+    ASSERT_TRUE(output.trajectory) << "the controller holds after 0.1 s without commands";
     ASSERT_TRUE(output.gimbal);
     EXPECT_EQ(output.gimbal->pitch, 0.3);
     input_.state.p_WB = output.trajectory->p_WB;
@@ -102,14 +102,14 @@ TEST_F(AgentTest, RemembersBoxesAndRepeatsCommands) {
   EXPECT_NEAR(input_.state.p_WB.z(), 20.0, 1e-6);
 }
 
-TEST_F(AgentTest, TellsForWhichUavItsPlannerWaitedAndWhen) {
+TEST_F(AgentTest, RecordsForWhichUavItsPlannerWaitedAndWhen) {
   const auto wait = [&](std::optional<std::size_t> mate, int exchanges) {
     tape_.answer.waits_for = mate;
     for (int i = 0; i < exchanges; ++i) step();
   };
   wait(1, 20);
   wait({}, 10);
-  wait(1, 10);  // a break of half a second is none
+  wait(1, 10);  // a break of half a second does not count
   wait(2, 20);
   wait({}, 40);
   wait(2, 20);
@@ -133,7 +133,7 @@ TEST_F(AgentTest, KeepsThePointOfAimInTheImage) {
   EXPECT_LE(std::abs(step().gimbal->yaw), M_PI / 2.0 + 1e-9) << "behind: as far as the gimbal goes";
 }
 
-TEST_F(AgentTest, AnUnseenPeerIsStillWhereItStood) {
+TEST_F(AgentTest, APeerThatWasNeverSeenCountsAtItsStart) {
   auto points = wall();
   for (float a = 0.0F; a < 6.0F; a += 0.4F) points.emplace_back(20.0F + 0.5F * std::cos(a), 0.5F * std::sin(a), 0.6F);
   input_.key_frames = {{.points_W = points}};
@@ -160,11 +160,11 @@ TEST_F(AgentTest, MarksFreeSpaceOnlyIfItKnowsWhereTheSensorStood) {
   EXPECT_TRUE(tape_.near_is_free) << "only one of the linked UAVs has a LiDAR";
 }
 
-TEST_F(AgentTest, AKeyFramesSourceCounts) {
+TEST_F(AgentTest, MarksFreeSpaceFromTheSourceOfAKeyFrame) {
   input_.neighbours = {{node_of_uav(UavIndex{1}), {0.0, 0.0, 30.0}}};
   input_.key_frames = {{.points_W = wall(), .source = node_of_uav(UavIndex{0})}};
   step();
-  EXPECT_TRUE(tape_.near_is_free) << "its own: seen from where it is";
+  EXPECT_TRUE(tape_.near_is_free) << "the key frame is its own, seen from its position";
 }
 
 TEST_F(AgentTest, DeliversThroughTheDirectLinkOnly) {
@@ -282,7 +282,7 @@ TEST_F(AgentTest, BeamsAreForThosePlannersThatAskForThem) {
 
 // The flight controller distinguishes modes by the fields that are zero, so the agent must not fill in, round or limit
 // any field.
-TEST_F(AgentTest, ACommandOfItsPlannersOwnGoesOutAsItIs) {
+TEST_F(AgentTest, SendsCommandsOfItsPlannerUnchanged) {
   for (const TrajectoryCommand& own : {TrajectoryCommand{.v_WB = {9.0, -20.0, 0.5}, .yaw = 3.0, .yaw_rate = 0.4},
                                        TrajectoryCommand{.a_WB = {0.0, 0.0, 1e-3}}, TrajectoryCommand{.yaw = -2.0},
                                        TrajectoryCommand{.p_WB = {0.0, 0.0, 0.001}}, TrajectoryCommand{}}) {
@@ -297,10 +297,10 @@ TEST_F(AgentTest, ACommandOfItsPlannersOwnGoesOutAsItIs) {
     EXPECT_EQ(command->yaw_rate, own.yaw_rate);
   }
   tape_.answer = {};
-  EXPECT_FALSE(step().trajectory) << "the controller's own rule takes over where nothing is commanded";
+  EXPECT_FALSE(step().trajectory) << "without commands, the flight controller decides";
 }
 
-TEST_F(AgentTest, AfterCommandsOfItsOwnItGoesOnFromWhereTheUavIs) {
+TEST_F(AgentTest, AfterCommandsOfThePlannerAPathBeginsWhereTheUavIs) {
   tape_.answer.motion = Path{{{{0.0, 0.0, 30.0}, 2.0}}};
   step();
   tape_.answer = {.motion = TrajectoryCommand{.v_WB = {4.0, 0.0, 0.0}}};
@@ -309,7 +309,7 @@ TEST_F(AgentTest, AfterCommandsOfItsOwnItGoesOnFromWhereTheUavIs) {
     input_.state.v_WB = {4.0, 0.0, 0.0};
     input_.state.q_WB = Eigen::AngleAxisd(1.2, Vector3d::UnitZ());
     step();
-    if (i == 1) continue;  // before its first answer it follows the path
+    if (i == 1) continue;  // in the first exchange, the agent still follows the path
     EXPECT_EQ(tape_.tracking.setpoint.p_WB, input_.state.p_WB) << "a path begins where it is";
     EXPECT_TRUE(tape_.tracking.done) << "the path before is over";
   }
@@ -321,7 +321,7 @@ TEST_F(AgentTest, AfterCommandsOfItsOwnItGoesOnFromWhereTheUavIs) {
     tape_.answer = {};
     ASSERT_TRUE(command);
     EXPECT_LT((command->p_WB - p_W).norm(), 4.2 * 0.05 + 0.05) << "no jump in position, exchange " << i;
-    EXPECT_LT((command->v_WB - v_W).norm(), 4.0 * 0.05) << "none in velocity, exchange " << i;
+    EXPECT_LT((command->v_WB - v_W).norm(), 4.0 * 0.05) << "no jump in velocity, exchange " << i;
     EXPECT_NEAR(command->yaw, 1.2, 1e-9) << "it looks where it looked";
     p_W = command->p_WB;
     v_W = command->v_WB;
@@ -331,7 +331,7 @@ TEST_F(AgentTest, AfterCommandsOfItsOwnItGoesOnFromWhereTheUavIs) {
   EXPECT_NEAR((p_W - Vector3d(20.0, 0.0, 10.0)).norm(), 0.0, 1e-6);
 }
 
-TEST_F(AgentTest, HoldAfterACommandOfItsOwnBrakes) {
+TEST_F(AgentTest, AHoldAfterACommandOfThePlannerBrakes) {
   input_.state.v_WB = {3.0, 0.0, 0.0};
   tape_.answer.motion = TrajectoryCommand{.v_WB = {3.0, 0.0, 0.0}};
   step();
@@ -347,7 +347,7 @@ TEST_F(AgentTest, HoldAfterACommandOfItsOwnBrakes) {
     input_.state.v_WB = command->v_WB;
   }
   EXPECT_NEAR(input_.state.v_WB.norm(), 0.0, 1e-9);
-  EXPECT_GT(input_.state.p_WB.x(), 0.5) << "it has a way to brake";
+  EXPECT_GT(input_.state.p_WB.x(), 0.5) << "it needs some distance to brake";
   EXPECT_LT(input_.state.p_WB.x(), 5.0);
 }
 

@@ -19,7 +19,7 @@ class BeamReaderTest : public testing::Test {
     state_.q_WB = Eigen::AngleAxisd(0.7, Vector3d(0.1, 0.2, 1.0).normalized());
   }
 
-  /// The first scans of all; half of the beams return.
+  /// Draws a scan at tick 40, in which half of the beams return.
   Scan drawn(const LidarConfig& config, std::uint64_t key) {
     RandomStream random(key, "ranges", 0);
     ranges_.assign(static_cast<std::size_t>(config.rings * config.columns), 0.0);
@@ -51,7 +51,7 @@ class BeamReaderTest : public testing::Test {
   std::vector<double> ranges_;
 };
 
-TEST_F(BeamReaderTest, EachPointIsOfItsBeamAndTheRestReturnedNothing) {
+TEST_F(BeamReaderTest, AssignsEachPointToItsBeamAndNoReturnToTheOtherBeams) {
   LidarConfig one_ring, dense, wide;
   one_ring.rings = 1;
   dense.rings = 128;
@@ -71,7 +71,8 @@ TEST_F(BeamReaderTest, EachPointIsOfItsBeamAndTheRestReturnedNothing) {
   }
 }
 
-// Whichever are missing, single ones or all of some columns: the others are of their beams, and nothing is in doubt.
+// Single points or all points of some columns are missing. The reader still assigns the others to their beams, and
+// doubts nothing.
 TEST_F(BeamReaderTest, LostReturnsAreBeamsWithoutReturn) {
   const LidarConfig config;
   for (const double lost_p : {0.1, 0.3, 0.5, 0.99}) {
@@ -105,7 +106,7 @@ TEST_F(BeamReaderTest, AnEmptyCloudIsAScanWithoutReturns) {
   for (const BeamScan::Beam& beam : beams.beams) ASSERT_EQ(beam.state, BeamState::none);
 }
 
-// Also by a column or a ring, where every point lies on the line of a beam that is not its own.
+// The pose may also be off by exactly a column or a ring, so that each point lies on the line of another beam.
 TEST_F(BeamReaderTest, OdometryOrServoThatDoNotFitLeaveTheWholeScanUnknown) {
   const LidarConfig config;
   const double column = 2.0 * std::numbers::pi / config.columns, ring = 2.0 * kRadPerDeg;
@@ -205,10 +206,11 @@ TEST_F(BeamReaderTest, OtherUavsAreNoStructureAndHideIt) {
   }
   EXPECT_GT(uavs, 1U);
   EXPECT_GT(hidden, 10U);
-  EXPECT_GT(beyond, 10U) << "what was met behind it was met";
+  EXPECT_GT(beyond, 10U) << "returns from behind the other UAV still count";
 }
 
-/// Before, behind, above, on the axis, across the seam of the columns, near and far, and about the LiDAR itself.
+/// The other UAV is ahead, behind, above, on the axis, across the seam of the columns, near, far, or around the LiDAR
+/// itself.
 TEST_F(BeamReaderTest, MarksTheSameBeamsWhereverTheOtherUavIs) {
   LidarConfig one_ring, wide, odd;
   one_ring.rings = 1;

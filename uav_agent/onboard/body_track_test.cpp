@@ -49,7 +49,7 @@ TEST(BodyTrack, MeetsTheOdometryAndStaysWithinItsBoundsBetween) {
   EXPECT_GT(most_turned, 1e-9) << "there is something to interpolate";
 }
 
-TEST(BodyTrack, SaysNothingOutsideOfWhatItHasAndInGaps) {
+TEST(BodyTrack, HasNoPoseOutsideItsOdometryAndInGaps) {
   BodyTrack track(80, 20);
   EXPECT_FALSE(track.at(0));
   for (const Tick tick : {0, 20, 60, 80}) track.add(tick, lively(tick));

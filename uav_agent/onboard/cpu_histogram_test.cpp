@@ -11,7 +11,7 @@
 namespace skein::agent {
 namespace {
 
-TEST(CpuHistogram, WithoutExchangesThereIsNothing) {
+TEST(CpuHistogram, WithoutExchangesAllIsZero) {
   const CpuHistogram none;
   EXPECT_EQ(none.total_s(), 0.0);
   EXPECT_EQ(none.max_s(), 0.0);
@@ -19,7 +19,7 @@ TEST(CpuHistogram, WithoutExchangesThereIsNothing) {
   EXPECT_EQ(none.over_field_exchange(), 0U);
 }
 
-TEST(CpuHistogram, QuantilesAreThoseOfTheTimesThatItForgot) {
+TEST(CpuHistogram, QuantilesAreCloseToThoseOfTheTimes) {
   RandomStream random(1, "cpu", 0);
   for (const std::size_t count : {1U, 7U, 100U, 5000U}) {
     CpuHistogram histogram;
@@ -52,7 +52,7 @@ TEST(CpuHistogram, FiftyMillisecondsAreStillInTime) {
   EXPECT_DOUBLE_EQ(histogram.total_s(), 0.1001);
 }
 
-TEST(CpuHistogram, HoursInOneExchangeHaveAPlaceToo) {
+TEST(CpuHistogram, AcceptsHoursInOneExchangeAndNegativeTimes) {
   CpuHistogram histogram;
   histogram.add(1e9);
   histogram.add(-1e-9);  // a clock that is read twice in a tick

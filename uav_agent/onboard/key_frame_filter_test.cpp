@@ -76,7 +76,7 @@ TEST(KeyFrameFilter, KeepsWhatHasEnoughNeighboursAndNothingElse) {
   EXPECT_GT(std::min(kept_in_all, dropped_in_all), 500U) << "both must have been drawn often";
 }
 
-TEST(KeyFrameFilter, SurvivesNothingAndNonsense) {
+TEST(KeyFrameFilter, AcceptsAnEmptyCloudAndDropsImpossiblePoints) {
   EXPECT_TRUE(KeyFrameFilter()({}, {}).empty());
   const float nan = std::nanf("");
   const auto kept = KeyFrameFilter()({{nan, 0.0F, 1.0F}, {1.0F, 1.0F, -40.0F}, {1.0F, 1.0F, 1.0F}}, {});
