@@ -1,4 +1,4 @@
-// Maps that UAVs tell each other by themselves, on board of agents whose planners only want them.
+// Maps that agents send each other by themselves. Their planners only state that they want them.
 #include "uav_agent/onboard/map_radio.hpp"
 
 #include <gtest/gtest.h>
@@ -149,19 +149,19 @@ TEST(MapRadio, AllUavsGetAnExplorersMapWithoutCallsOfTheirPlanners) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     Talkers talkers(3, seed, 0.3);
     for (int i = 0; i < 200; ++i) talkers.exchange(true);
-    EXPECT_GT(talkers.map(0).counts().free[0], 1'000U) << "there is something to tell";
+    EXPECT_GT(talkers.map(0).counts().free[0], 1'000U) << "there is something to send";
     EXPECT_LT(talkers.exchanges_to_know(1, 0, kMostExchanges), kMostExchanges) << seed;
     EXPECT_LT(talkers.exchanges_to_know(2, 0, kMostExchanges), kMostExchanges) << seed;
     for (std::size_t uav = 0; uav < 3; ++uav) {
       EXPECT_GT(talkers.planner(uav).heard.size(), 200U);
       EXPECT_TRUE(std::ranges::all_of(talkers.planner(uav).heard, [](const RadioMessage& message) {
         return message.topic == "/plan" && message.text == "looker/1 hello";
-      })) << "what planners say to each other, and nothing else";
+      })) << "planners receive messages of planners, and nothing else";
     }
   }
 }
 
-TEST(MapRadio, AUavThatIsStartedAnewKnowsItAgain) {
+TEST(MapRadio, ARestartedUavReceivesTheMapAgain) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const std::size_t restarted : {0U, 1U}) {
       Talkers talkers(2, seed, 0.3);
@@ -176,7 +176,7 @@ TEST(MapRadio, AUavThatIsStartedAnewKnowsItAgain) {
   }
 }
 
-TEST(MapRadio, NothingIsToldWhereNoPlannerWantsTheMap) {
+TEST(MapRadio, AnAgentWhosePlannerWantsNoMapSendsNone) {
   Talkers talkers(3, 1, 0.0);
   talkers.restart(2, false);
   for (int i = 0; i < 200; ++i) talkers.exchange(true);
@@ -184,7 +184,7 @@ TEST(MapRadio, NothingIsToldWhereNoPlannerWantsTheMap) {
   EXPECT_GT(talkers.told(1), 10);
   EXPECT_EQ(talkers.told(2), 0);
   EXPECT_EQ(talkers.planner(2).map, nullptr);
-  EXPECT_EQ(talkers.planner(2).heard.size(), 2 * 199U) << "those of planners, and of no maps";
+  EXPECT_EQ(talkers.planner(2).heard.size(), 2 * 199U) << "its planner receives messages of planners only";
 }
 
 TEST(MapRadio, OnlyMessagesOfMapsAreKeptFromPlanners) {
@@ -195,7 +195,7 @@ TEST(MapRadio, OnlyMessagesOfMapsAreKeptFromPlanners) {
   EXPECT_FALSE(MapRadio::is_of_maps({.topic = "/broadcast", .text = "map/1 x", .source = {}}));
 }
 
-/// A thing is met while UAV 2 is out of sight, and never again.
+/// The LiDAR sees a thing while UAV 2 is out of sight, and never again.
 TEST(MapRadio, AHitThatMayBeAnUnheardUavIsDoubtedWhenTheUavIsHeardAgain) {
   Talkers talkers(3, 1, 0.0);
   const Vector3d thing_W(5.0, 12.0, 10.0);
@@ -271,7 +271,7 @@ TEST(MapRadio, SpaceOnTheWayThatAPlannerStatesComesFirst) {
   }
 }
 
-TEST(MapRadio, WhereTheTrackerFliesIsItsWayWhileThePlannerDoesNotSay) {
+TEST(MapRadio, SpaceOnTheTrackersWayComesFirstIfThePlannerStatesNone) {
   const auto flies = [](MapLooker& planner) { planner.motion = Setpoint{.p_WB = {0.0, -60.0, 10.0}}; };
   EXPECT_GT(share_of_right(flies, 1), 0.95);
   const auto says = [](MapLooker& planner) {

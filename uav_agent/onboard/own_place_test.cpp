@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-/// A LiDAR of a UAV that did not hear this one met it, and took it for structure.
+/// The LiDAR of a UAV that did not hear this UAV saw it, and took it for structure.
 TEST(OwnPlace, AUavIgnoresReportsOfStructureAtItsOwnPlace) {
   struct Looker final : Planner {
     PlannerOutput plan(const PlannerInput& in) override {

@@ -13,7 +13,7 @@ struct Drawn {
   bool keep_lone = false;
 };
 
-/// One of `kinds` questions; many differ in little only.
+/// Draws the input of this kind. Kinds differ only slightly within groups of four.
 Drawn question(int kind) {
   RandomStream random(static_cast<std::uint64_t>(kind / 4), "frame", 0);
   Drawn drawn;
@@ -47,7 +47,7 @@ TEST(ReadyFrames, AnswerAsIfNothingWereRemembered) {
   }
 }
 
-TEST(ReadyFrames, AreWhatAMapMakesOfThem) {
+TEST(ReadyFrames, GiveTheSameMapAsFramesThatAreInsertedDirectly) {
   ReadyFrames frames(3);
   OccupancyMap by_parts, at_once;
   RandomStream random(1, "asked", 0);

@@ -1,5 +1,5 @@
-// Cameras that fail, and the planner flock: what a UAV can tell of its camera, and that it announces views only while
-// the camera works.
+// Cameras that fail, and the planner flock: what a UAV finds out about its camera, and that it announces views only
+// while the camera works.
 #include "uav_agent/planners/flock/camera.hpp"
 
 #include <gtest/gtest.h>
@@ -61,8 +61,8 @@ TEST(FlockCamera, LittleEvidenceIsNotHeldAgainstIt) {
   }
 }
 
-/// A camera that dies at some time is found out from a few places. The first detection proves that it works again.
-TEST(FlockCamera, IsFoundOutAndProvedByOneDetection) {
+/// The planner notices a failed camera after a few places. The first detection proves that the camera works again.
+TEST(FlockCamera, AFailureIsNoticedAndOneDetectionProvesThatItIsOver) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "found_out", 0);
     FlockCamera camera;
@@ -177,7 +177,7 @@ struct FlockAtLongWall : FlownUav {
 };
 
 /// The points that a picture should show clearly are in the middle of it, and on this side of the wall.
-TEST(FlockCamera, SeesClearlyWhatThePictureShows) {
+TEST(FlockCamera, ClearPointsAreInTheMiddleOfThePicture) {
   FlockAtLongWall uav(1);
   FlockSurfaces surfaces = uav.surfaces_of(uav.agent);
   surfaces.detect(uav.points, {-4.0, 0.0, 10.0});
@@ -231,8 +231,8 @@ TEST(FlockCamera, PicturesThatWereNotTakenAreTakenBack) {
   }
 }
 
-/// A camera dies at a drawn time, and works again 30 s later. While its UAV knows that it is dead, it keeps no work
-/// from another one, and waits off the wall; once it works again, the UAV claims views at once.
+/// A camera fails at a drawn time, and works again 30 s later. While the UAV knows of the failure, it leaves all work
+/// to other UAVs, and waits away from the wall. Once the camera works again, the UAV claims views at once.
 TEST(Flock, AViewIsClaimedOnlyByAUavThatCanTakeIt) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     RandomStream random(seed, "dead_camera", 0);

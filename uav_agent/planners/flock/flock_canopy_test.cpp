@@ -1,4 +1,4 @@
-// A UAV that starts below a canopy finds out from there, although no free cubes of the planner's map lead out.
+// A UAV that starts below a canopy finds its way out, although no free cubes of the planner's map lead there.
 #include <gtest/gtest.h>
 
 #include "core/math/random_stream.hpp"

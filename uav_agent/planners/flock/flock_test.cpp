@@ -92,8 +92,9 @@ struct BeforeAWall : FlownUav {
   std::optional<FlockSurfaces> surfaces;
 };
 
-/// Surface that was in a picture is no longer open for this UAV. Others hear of it once the camera has proved to work.
-TEST(FlockSurfaces, ADeadCameraKeepsOthersFromNothing) {
+/// Faces that were in a picture are no longer open for this UAV. It tells other UAVs once its camera has proved to
+/// work.
+TEST(FlockSurfaces, FacesAreReportedOnceTheCameraHasProvedToWork) {
   BeforeAWall uav;
   const std::size_t before = uav.open_faces();
   ASSERT_GT(before, 20U);
@@ -105,7 +106,7 @@ TEST(FlockSurfaces, ADeadCameraKeepsOthersFromNothing) {
   EXPECT_GT(uav.told_faces(), 10U);
 }
 
-/// A point that is photographed again and again, and gets no better, is left alone for a time, and only that one.
+/// If further pictures do not improve a point, the UAV leaves this point alone for a time, and no other.
 TEST(FlockSurfaces, APointThatGetsNoBetterIsLeftAloneForATime) {
   BeforeAWall uav;
   const std::vector<DetectedPoint> both = {{{2.2F, 0.0F, 10.0F}, 0.4, 0, {-1.0F, 0.0F, 0.0F}},
@@ -146,7 +147,7 @@ TEST(FlockSurfaces, APoorPictureIsNotPromisedAgain) {
   }
 }
 
-/// The camera cannot be turned to it: this UAV leaves it out for a while, others are not told.
+/// The UAV cannot turn its camera to some targets. It leaves them out for a while, and does not tell other UAVs.
 TEST(FlockSurfaces, ATargetThatTheCameraCannotLookAtIsLeftOutForATime) {
   BeforeAWall uav;
   uav.surfaces->detect(std::vector<DetectedPoint>{{{2.2F, 0.0F, 10.0F}, 0.4, 0, {-1.0F, 0.0F, 0.0F}}},
@@ -185,8 +186,8 @@ TEST(FlockSurfaces, AUavThatTakesBoxesForStructureDoesNotTellOthersSo) {
   EXPECT_EQ(&all_blind.told_grid(), &all_blind.grid());
 }
 
-/// Views before the wall: what each shows is what the score's formulas say of that picture, and nothing on the wall's
-/// far side.
+/// The qualities that a view before the wall promises are those of the score's formulas for that picture. No view shows
+/// anything on the wall's far side.
 TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
   BeforeAWall uav;
   const FlockViews views(uav.flock, uav.agent, kSharpM);
@@ -210,7 +211,7 @@ TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
 }
 
 /// The less work there is, the more it is worth to look for some; without a lack of it, no explorer looks.
-TEST(FlockViews, GapsAreWorthWhatWorkLacks) {
+TEST(FlockViews, GapsAreWorthMoreTheLessWorkThereIs) {
   BeforeAWall uav;
   const FlockViews views(uav.flock, uav.agent, kSharpM);
   uav.navigator.update(uav.input());
@@ -244,7 +245,7 @@ TEST(FlockReach, LeavesWhatItCannotReachForAWhile) {
     } else {
       int exchanges = 0;
       for (; !reach.stalls(in, there) && exchanges < 1000; ++exchanges) in.tick += ticks(uav.agent.exchange_period_s);
-      ASSERT_LT(exchanges, 1000) << "it stands";
+      ASSERT_LT(exchanges, 1000) << "a UAV that stands must stall";
       EXPECT_FALSE(reach.stalls(in, std::nullopt)) << "it is where it wants to be";
     }
     EXPECT_TRUE(reach.out_of_reach(there, in)) << "seed " << seed;

@@ -51,8 +51,8 @@ void talk(std::vector<FlockPoints>& uavs, RandomStream& random, int rounds, Tick
   }
 }
 
-/// Three UAVs that each found points of their own, some of them the same: in the end all know the best of each. One of
-/// them then begins anew, and gets everything back.
+/// Each of three UAVs found points, some of them the same. In the end, all UAVs know the best quality of each point.
+/// Then one of them is restarted, and gets everything back.
 TEST(FlockPoints, AllEndUpWithTheBestOfAllWhateverIsLost) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "points", 0);
@@ -188,7 +188,7 @@ TEST(FlockPoints, NoSliceStarvesWhateverElseChanges) {
   }
 }
 
-/// Any message that arrives gives points or nothing.
+/// A damaged message yields valid points or none.
 TEST(FlockPoints, DamagedMessagesDoNoHarm) {
   RandomStream random(11, "damage", 0);
   FlockPoints sender;

@@ -47,11 +47,11 @@ TestWorld flown(const std::string& name, const std::vector<Wanted>& commands, co
   return {two_towers(), test_fleet(1), "hand:file=" + hand_csv(name, commands).string() + more, 300.0};
 }
 
-TEST(Hand, MovesAsToldAndComesToRest) {
+TEST(Hand, ObeysCommandsAndComesToRest) {
   TestWorld world = flown(
       "moves", {{1.0, up(1.0)}, {16.0, {}}, {19.0, level(2.0, 0.0)}, {33.0, {}}, {36.0, level(0.0, 1.0)}, {43.0, {}}});
   world.run(1.0);
-  EXPECT_LT(world.highest_m(0), 0.2) << "before anybody wants anything it stands";
+  EXPECT_LT(world.highest_m(0), 0.2) << "before the first command, it stands";
   world.run(17.0);
   const Vector3d top = world.position(0);
   EXPECT_NEAR(top.z(), 9.0, 3.0);
@@ -69,7 +69,7 @@ TEST(Hand, MovesAsToldAndComesToRest) {
   world.run(3.0);
   const Vector3d rests = world.position(0);
   world.run(20.0);
-  EXPECT_EQ(world.position(0), rests) << "nobody wants anything: it stays to the bit";
+  EXPECT_EQ(world.position(0), rests) << "without a command, its place stays the same to the bit";
   EXPECT_EQ(world.bad_commands(), 0U);
 }
 
@@ -95,7 +95,7 @@ TEST(Hand, StopsInFrontOfAWallAndObeysAgainOnTheWayBack) {
   EXPECT_GT(world.clearance(), kBodyRadiusM + 0.5);
   world.run(11.0);
   EXPECT_LT(world.position(0).y(), stopped.y() - 5.0);
-  // Without the filter the same hands fly it into the wall.
+  // Without the filter, the same commands fly it into the wall.
   TestWorld bold = flown("wall", commands, ",safe=false");
   bold.run(75.0);
   EXPECT_LT(bold.clearance(), 0.1);
@@ -112,7 +112,7 @@ TEST(Hand, WithTheFilterItStaysAboveTheFloorAndClimbsFirst) {
   EXPECT_GT(world.position(0).x() - low.x(), 3.0) << "along the floor it flies on";
 }
 
-/// Whatever hands do: drawn commands, long and short, for each UAV of a fleet its own.
+/// Draws commands of any speed, some long and some short.
 std::vector<Wanted> drawn_hands(std::uint64_t seed, double duration_s) {
   RandomStream random(seed, "drawn hands", 0);
   std::vector<Wanted> commands = {{1.0, up(random.uniform(0.5, 3.0))}};
@@ -139,7 +139,7 @@ TEST_P(DrawnHands, HitNothingAndRepeatFromTheFile) {
 INSTANTIATE_TEST_SUITE_P(Seeds, DrawnHands, testing::Range<std::uint64_t>(1, 7));
 
 /// Commands that come one by one, as from a page, and the file that is kept of them, make the same flight.
-TEST(Hand, FromAFileItFliesAsItWasToldThen) {
+TEST(Hand, AFileOfCommandsRepeatsTheFlight) {
   for (const char* safe : {"true", "false"}) {
     const std::vector<Wanted> commands = drawn_hands(17, 40.0);
     FlownUav told(fleet_of(1, Role::explorer, 0), {100.0, 0.0, 0.16}), repeated(told.agent, {100.0, 0.0, 0.16});
@@ -196,7 +196,7 @@ TEST(Hand, TellsWhatHoldsItBack) {
   fly({}, 60);
   EXPECT_EQ(held.back(), static_cast<double>(HeldBack::no));
   fly(level(1.0, 0.0), 400);
-  EXPECT_EQ(held.back(), static_cast<double>(HeldBack::unproved)) << "nobody knows what is beyond";
+  EXPECT_EQ(held.back(), static_cast<double>(HeldBack::unproved)) << "no beam has proved the space beyond";
   EXPECT_LT((uav.state.p_WB - Vector3d(100.0, 0.0, 6.0)).norm(), 8.0);
   fly({}, 60);
   EXPECT_EQ(held.back(), static_cast<double>(HeldBack::no));

@@ -102,7 +102,7 @@ struct CoreOfTest {
   std::uint64_t k = 0;
 };
 
-TEST(KiosMapping, FliesLanesOneByOneAndOnToWhereItCanGet) {
+TEST(KiosMapping, FliesLanesOneByOneAndGivesUpACornerThatItCannotReach) {
   CoreOfTest core(agent_of(0, 1, 0));
   KiosMapping mapping(3.0);
   const std::vector<Vector3d> corners = {Vector3d::UnitX(), 2.0 * Vector3d::UnitX(), 3.0 * Vector3d::UnitX(),
@@ -138,7 +138,7 @@ TEST(KiosMapping, FliesLanesOneByOneAndOnToWhereItCanGet) {
   EXPECT_TRUE(mapping.done());
 }
 
-/// Its list of goals has more than one: where it stops to look, it must not go on to the next.
+/// The planner lists several goals. While it stops at one to look, the UAV must not go on to the next.
 TEST(Kios, StaysAtAWaypointUntilItHasLooked) {
   CoreOfTest core(agent_of(0, 0, 1));
   const auto planner = make_planner("kios", core.agent);
@@ -164,7 +164,7 @@ TEST(Kios, FliesAlsoWhereCubesOfItsSizeWouldBeTooMany) {
   std::optional<std::vector<Goal>> goals;
   for (int i = 0; i < 10 && !(goals && !goals->empty()); ++i) goals = planner->plan(core.input()).goals;
   ASSERT_TRUE(goals);
-  EXPECT_FALSE(goals->empty()) << "its lanes";
+  EXPECT_FALSE(goals->empty()) << "it flies its lanes";
 }
 
 TEST(KiosTalk, ClaimsTravelAndExpire) {
@@ -218,7 +218,7 @@ TEST(KiosPatience, AUavThatComesBackBelievesPhotographersThatWork) {
   }
 }
 
-TEST(Kios, PhotographsTheStructureAndBringsItHome) {
+TEST(Kios, PhotographsTheStructureAndDeliversThePictures) {
   TestWorld world(two_towers(), test_fleet(3), "kios", 300.0);
   world.run(300.0);
   EXPECT_GT(world.coverage(), 0.7);
@@ -247,7 +247,7 @@ TEST(Kios, PhotographersWaitNoLongerThanTheyAreAskedTo) {
   EXPECT_GT((hasty.position(1) - patient.position(1)).norm(), 3.0);
 }
 
-TEST(Kios, NoWordMeansTheirWorkIsDoneAgainButDone) {
+TEST(Kios, WithoutMessagesTheStructureIsPhotographedAllTheSame) {
   TestScene scene = two_towers();
   scene.talk = false;
   TestWorld silent(scene, test_fleet(3), "kios", 300.0);

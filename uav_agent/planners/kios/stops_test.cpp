@@ -1,4 +1,4 @@
-// Waypoints of KIOS: where they are, whom they are for, and who visits which.
+// Waypoints of KIOS: where they are, which faces they are for, and which UAV visits them.
 #include "uav_agent/planners/kios/stops.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 /// 60 x 20 x 20 m, cubes of 5 m.
 VoxelGrid wide_grid() { return {Isometry3d::Identity(), {60.0, 20.0, 20.0}, 5.0}; }
 
-/// A map of all beams in which somebody told of something, and a grid of it, inside a box.
+/// A map of all beams with structure that another UAV reported, a grid of this map, and a box.
 struct MappedSite {
   VoxelGrid grid{Isometry3d::Identity(), {25.0, 25.0, 25.0}, 5.0};
   WorldMap map{WorldMap::Config()};
@@ -43,7 +43,7 @@ struct LoneCube : MappedSite {
   LoneCube() { tell({12.4, 12.4, 12.4}); }
 };
 
-TEST(KiosStops, EveryExposedFaceHasOneThatLooksAtIt) {
+TEST(KiosStops, EveryExposedFaceHasAStopThatLooksAtIt) {
   LoneCube world;
   const KiosStops stops{KiosStops::Config()};
   const auto open = world.open(stops);
@@ -59,7 +59,7 @@ TEST(KiosStops, PhotographedCoveredAndFailedFacesAreNotOpen) {
   KiosStops stops{KiosStops::Config()};
   world.grid.mark(world.cube, 2);
   world.tell(world.grid.centre_W(*world.grid.neighbour(world.cube, 0)));
-  world.boxes = {make_box({12.5, 12.5, 12.5}, {4.0, 5.0, 5.0})};  // not that one
+  world.boxes = {make_box({12.5, 12.5, 12.5}, {4.0, 5.0, 5.0})};  // without the neighbour
   stops.failed(VoxelGrid::kFaces * world.cube + 4, 0);
   EXPECT_EQ(world.open(stops).stops.size(), 3U);
   EXPECT_EQ(world.open(stops, ticks(60.0)).stops.size(), 4U) << "is tried again";
@@ -77,7 +77,7 @@ TEST(KiosStops, ACubeWithFewMappedCellsIsNotOpen) {
 
 /// For random maps: each exposed face with its surface in a box has at most one stop. Every stop is in free space, in
 /// front of its face, and at a distance at which pictures are sharp.
-TEST(KiosStops, HoldOnAnyMap) {
+TEST(KiosStops, AreFreeAndInFrontOfTheirFacesOnAnyMap) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> along(0.0, 25.0);
   for (int drawn = 0; drawn < 30; ++drawn) {
@@ -129,8 +129,9 @@ TEST(KiosStops, AFaceIsLookedAtFromBesideWhatStandsInFrontOfIt) {
   }
 }
 
-/// For who plans through the unknown: a place counts if it was seen to be free, and is proved if a body fits there.
-TEST(KiosStops, UnseenSpaceIsNoPlaceAndWhatABodyDoesNotFitIsNotProved) {
+/// Here, paths may lead through unknown space. A stop still needs space that was seen to be free, and it is proved if a
+/// body fits there.
+TEST(KiosStops, NoStopIsInUnseenSpaceAndAStopIsProvedOnlyIfABodyFits) {
   LoneCube world;
   const Vector3d in_front_W(17.5, 12.5, 12.5), behind_W(7.5, 12.5, 12.5);
   world.map.set_free(in_front_W, 2.6);
@@ -156,7 +157,7 @@ TEST(KiosStops, ToursGoAroundStructureLast) {
   VoxelGrid grid = wide_grid();
   for (int z = 0; z < 4; ++z) grid.raise(*grid.at(VoxelGrid::Cell(6, 1, z)), VoxelState::occupied);
   std::vector<KiosStop> stops(2);
-  stops[0].p_WB = {38.0, 7.5, 10.0};  // nearer, but behind that
+  stops[0].p_WB = {38.0, 7.5, 10.0};  // nearer, but behind the structure
   stops[1].p_WB = {17.0, 7.5, 10.0};
   const std::vector<KiosAgent> alone = {{{28.0, 7.5, 10.0}, 0.0}};
   const KiosStops share{KiosStops::Config()};
@@ -181,7 +182,7 @@ TEST(KiosStops, UavsInSightShareTheStops) {
   for (const std::size_t i : left) EXPECT_EQ(std::ranges::count(right, i), 0);
   EXPECT_EQ(left.front(), 0U);
   EXPECT_EQ(right.front(), 39U);
-  EXPECT_EQ(share.own_tour(stops, {agents[0]}, 0, grid).size(), 40U) << "nobody in sight: all of them";
+  EXPECT_EQ(share.own_tour(stops, {agents[0]}, 0, grid).size(), 40U) << "no other UAV is in sight: all of them";
 }
 
 }  // namespace

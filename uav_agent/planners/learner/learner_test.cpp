@@ -67,7 +67,7 @@ class LearnerOrders : public testing::Test {
   Block block_{lay_out(orders_)};
 };
 
-TEST_F(LearnerOrders, OfTheBeginningAreToStay) {
+TEST_F(LearnerOrders, AreToStayInTheBeginning) {
   EXPECT_FALSE(orders_.is_news(0));
   EXPECT_EQ(orders_.velocity(), HandCommand{});
   EXPECT_TRUE(orders_.way().empty());
@@ -120,7 +120,7 @@ TEST_F(LearnerOrders, AreReadAsTheyWereWritten) {
   }
 }
 
-// The block is anybody's memory: no number in it leads beyond its tables.
+// Another program may write any bytes into the block, so no number in it may lead beyond its tables.
 TEST_F(LearnerOrders, OfAnyBytesStayWithinTheBlock) {
   for (int i = 0; i < kDraws; ++i) {
     block_.at<std::int64_t>("waypoints") = static_cast<std::int64_t>(random_.bits());
@@ -133,14 +133,14 @@ TEST_F(LearnerOrders, OfAnyBytesStayWithinTheBlock) {
 
 // ---- what it does with them -------------------------------------------------------------------------------------
 
-TEST(Learner, TakesAPictureAndAGoalOnceAnOrder) {
+TEST(Learner, ObeysEachOrderOnce) {
   FlownUav uav(fleet_of(3, Role::explorer, 1), {0.0, 0.0, 20.0});
   const auto planner = make_planner("learner:flies=way", uav.agent);
   BlockLayout layout;
   planner->learner()->lay_out(layout, "");
   Block block(layout);
   planner->learner()->use(block.data());
-  EXPECT_FALSE(planner->plan(uav.input()).goals) << "nobody said anything";
+  EXPECT_FALSE(planner->plan(uav.input()).goals) << "there is no order yet";
   for (int order = 1; order <= 3; ++order) {
     block.at<std::int8_t>("does.trigger") = 1;
     block.at<std::int64_t>("does.waypoints") = order - 1;
@@ -151,7 +151,7 @@ TEST(Learner, TakesAPictureAndAGoalOnceAnOrder) {
       EXPECT_EQ(out.trigger, step == 0);
       ASSERT_EQ(out.goals.has_value(), step == 0);
       if (step == 0) {
-        EXPECT_EQ(out.goals->size(), order == 1 ? 0U : 1U) << "an empty way is to stay";
+        EXPECT_EQ(out.goals->size(), order == 1 ? 0U : 1U) << "an empty way means to stay";
       }
     }
   }
@@ -189,7 +189,7 @@ class LearnerObservation : public testing::Test {
   }
 };
 
-TEST_F(LearnerObservation, IsWhatItsUavWasTold) {
+TEST_F(LearnerObservation, HoldsTheInputsOfItsUav) {
   for (int i = 0; i < kDraws; ++i) {
     ++uav_.k;
     uav_.state.p_WB = drawn(random_) + Vector3d(0.0, 0.0, 60.0);
@@ -283,7 +283,7 @@ TEST_F(LearnerObservation, KeepsTheLatestScanAndItsAge) {
   }
 }
 
-// After each step, whether the map has changed or the UAV has moved, or neither.
+// The window must be right after each step, whether the map has changed, the UAV has moved, or neither.
 TEST_F(LearnerObservation, TheWindowIsTheMapAboutTheUav) {
   for (int i = 0; i < 60; ++i) {
     ++uav_.k;

@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-TEST(Patrol, PhotographsTheStructureAndBringsItHome) {
+TEST(Patrol, PhotographsTheStructureAndDeliversThePictures) {
   TestWorld world(two_towers(), test_fleet(3), "patrol", 300.0);
   world.run(300.0);
   EXPECT_GT(world.coverage(), 0.9);
@@ -37,23 +37,23 @@ TEST_P(PatrolFleets, NoUavTouchesAnything) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PatrolFleets, testing::Values(1U, 2U, 5U, 8U));
 
-TEST(Patrol, WorksWithoutAnyLidar) {
+TEST(Patrol, PhotographsWithoutAnyLidar) {
   TestWorld world(two_towers(), {{"eye", Role::photographer, {-8.0, -14.0}}}, "patrol", 200.0);
   world.run(200.0);
   EXPECT_GT(world.coverage(), 0.2) << "from in front of the boxes";
   EXPECT_GT(world.clearance(), kPhotographerRadiusM + 0.5);
 }
 
-TEST(Patrol, WorksAloneInTheDark) {
+TEST(Patrol, PhotographsAloneWithoutRadio) {
   TestScene scene = two_towers();
   scene.radio = false;
   TestWorld world(scene, {{"a", Role::explorer, {-8.0, -14.0}}}, "patrol", 200.0);
   world.run(200.0);
-  EXPECT_GT(world.coverage(), 0.25) << "it flies no faster than it proves";
+  EXPECT_GT(world.coverage(), 0.25) << "it is slow, because it flies no faster than it proves space";
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
 }
 
-TEST(Patrol, BoxesMayComeLate) {
+TEST(Patrol, PhotographsAlsoIfBoxesComeLate) {
   TestScene scene = two_towers();
   scene.boxes_at_s = 20.0;
   TestWorld world(scene, test_fleet(2), "patrol", 200.0);
@@ -70,7 +70,7 @@ TEST(Patrol, WithoutBoxesItStaysWhereItIs) {
   for (const std::size_t uav : {0U, 1U}) EXPECT_LT(world.highest_m(uav), 8.0);
 }
 
-TEST(Patrol, CopesWithManyBoxes) {
+TEST(Patrol, FliesSafelyAndPhotographsAmongManyBoxes) {
   TestScene scene;
   for (int i = 0; i < 15; ++i) {
     const Vector3d centre(14.0 * (i % 5), 14.0 * (i / 5), 6.0 + i % 4);

@@ -60,10 +60,10 @@ struct AtWork : FlownUav {
   std::unique_ptr<Planner> planner;
   GimbalState gimbal;
   std::vector<RadioMessage> radio;
-  std::optional<Outcome::Kind> says;  ///< beside what the navigator does: what becomes of each goal
+  std::optional<Outcome::Kind> says;  ///< an outcome that each goal gets, whatever the navigator does
 };
 
-/// Long walls, drawn: it flies along them, plans anew on the way, and hardly rests.
+/// Draws long walls. The UAV flies along them, plans anew on the way, and hardly rests.
 TEST(StarFlight, GoesOnThroughItsViewpointsWithoutAStop) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "wall", 0);
@@ -85,7 +85,7 @@ TEST(StarFlight, GoesOnThroughItsViewpointsWithoutAStop) {
   }
 }
 
-/// The first place of a list of goals, but for the one where the UAV is.
+/// The first place of a goal's way, without the place where the UAV is.
 Vector3d first_place(const Goal& goal, const Vector3d& here_W) {
   const bool begins_here = (goal.way.front().p_WB - here_W).norm() < 0.3;
   return goal.way[begins_here && goal.way.size() > 1 ? 1 : 0].p_WB;
@@ -107,7 +107,7 @@ TEST(StarFlight, AGoalThatCannotBeReachedIsPutOff) {
   }
 }
 
-/// Two boxes, of which the explorer says that it is at one: there its photographer goes when it knows of no surface.
+/// An explorer reports at which of two boxes it is. Its photographer flies there while it knows of no surface.
 TEST(StarFlight, WithoutSurfaceItGoesWhereItsExplorerWorks) {
   for (const std::size_t box : {0U, 1U}) {
     AtWork uav;
@@ -127,7 +127,7 @@ TEST(StarFlight, WithoutSurfaceItGoesWhereItsExplorerWorks) {
       uav.work();
       nearest_m = std::min(nearest_m, (uav.state.p_WB - uav.boxes[box].center).norm());
       if (nearest_m < 14.0) break;
-      ASSERT_GT((uav.state.p_WB - uav.boxes[1 - box].center).norm(), 14.0) << "the other one first";
+      ASSERT_GT((uav.state.p_WB - uav.boxes[1 - box].center).norm(), 14.0) << "it must not fly to the other box first";
     }
     EXPECT_LT(nearest_m, 14.0);
   }
@@ -159,11 +159,13 @@ std::size_t places_before_walls(const std::string& planner, std::size_t photogra
 
 TEST(StarFlight, ExplorersInspectWhereTheyAreAskedToOrNoOtherUavCan) {
   EXPECT_LT(places_before_walls("star", 1), places_before_walls("star:explorers_inspect=true", 1) / 4);
-  EXPECT_GT(places_before_walls("star:explorers_inspect=true,faithful=true", 1), 20U) << "what is given wins";
+  EXPECT_GT(places_before_walls("star:explorers_inspect=true,faithful=true", 1), 20U)
+      << "a parameter that is given wins";
   EXPECT_GT(places_before_walls("star", 0), 20U) << "it has no photographer";
 }
 
-/// Two boxes, one of another team: whose own one is explored and photographed goes on to that one, or stays.
+/// One of two boxes belongs to another team. A team whose own box is explored and photographed goes on to that one, or
+/// stays.
 TEST(StarFlight, ATeamThatHasNothingLeftToDoHelpsUnlessItIsFaithful) {
   for (const bool helps : {true, false}) {
     AgentConfig agent = photographer_and_explorer();
@@ -188,7 +190,7 @@ TEST(StarFlight, ATeamThatHasNothingLeftToDoHelpsUnlessItIsFaithful) {
   }
 }
 
-TEST(Star, PhotographsTheStructureAndBringsItHome) {
+TEST(Star, PhotographsTheStructureAndDeliversThePictures) {
   TestWorld world(two_towers(), test_fleet(3), "star", 300.0);
   world.run(300.0);
   EXPECT_GT(world.coverage(), 0.5);
@@ -203,7 +205,7 @@ TEST(Star, PhotographersBeginWhileTheExplorerExplores) {
   EXPECT_GT((world.position(1).head<2>() - Vector2d(-5.0, -14.0)).norm(), 3.0);
 }
 
-TEST(Star, FaithfulOnesFlySafelyToo) {
+TEST(Star, FaithfulUavsFlySafelyToo) {
   TestWorld world(two_towers(), test_fleet(4), "star:faithful=true", 150.0);
   world.run(150.0);
   EXPECT_EQ(world.bad_commands(), 0U);

@@ -237,7 +237,7 @@ TEST(StarTour, KeepsItsDirectionAndItsFirstCluster) {
   const auto again = hierarchical_tour(grid, here, none, places, right.first_cluster_W, {}, {});
   EXPECT_GT(again.first_cluster_W.x(), 60.0) << "it keeps the first cluster of the last tour";
   const auto elsewhere = hierarchical_tour(grid, here, none, places, std::nullopt, {{29, 49, 10}}, {});
-  EXPECT_GT(elsewhere.first_cluster_W.x(), 60.0) << "somebody works on the left";
+  EXPECT_GT(elsewhere.first_cluster_W.x(), 60.0) << "another UAV works on the left";
   EXPECT_TRUE(hierarchical_tour(grid, here, none, {}, std::nullopt, {}, {}).visits.empty());
 }
 

@@ -1,4 +1,4 @@
-// STAR's teams, and how they share boxes out.
+// STAR's teams, and how the boxes are shared among them.
 #include "uav_agent/planners/star/teams.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(StarTeams, AreBalancedAndTakeTheNearestFirst) {
   EXPECT_EQ(teams[1].uavs, (std::vector<std::size_t>{1, 2}));
 }
 
-TEST(StarTeams, EverybodyIsInOneOfThemWhateverTheFleet) {
+TEST(StarTeams, EachUavIsInOneTeamWhateverTheFleet) {
   for (std::size_t explorers = 0; explorers < 5; ++explorers) {
     for (std::size_t photographers = 0; photographers < 6; ++photographers) {
       std::vector<FleetMember> fleet;
@@ -50,7 +50,7 @@ TEST(StarTeams, EverybodyIsInOneOfThemWhateverTheFleet) {
   }
 }
 
-TEST(StarTeams, VolumeWeighsAgainstWay) {
+TEST(StarTeams, ALargeBoxIsAsMuchWorkAsSeveralSmallOnes) {
   const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 10.0)};
   const std::vector<OrientedBox> boxes = {make_box({0, 40, 10}, {40, 40, 20}), make_box({60, 0, 5}, {8, 8, 10}),
                                           make_box({70, 0, 5}, {8, 8, 10}), make_box({80, 0, 5}, {8, 8, 10})};
@@ -59,16 +59,17 @@ TEST(StarTeams, VolumeWeighsAgainstWay) {
   share_boxes(fleet, boxes, {.volume_weight = 0.005, .objective = kLongest}, teams);
   const std::size_t has_large = std::ranges::count(teams[0].boxes, 0U) > 0 ? 0 : 1;
   EXPECT_EQ(teams[has_large].boxes, std::vector<std::size_t>{0}) << "the large one is work enough";
-  EXPECT_EQ(teams[1 - has_large].boxes, (std::vector<std::size_t>{1, 2, 3})) << "in the order of the way";
+  EXPECT_EQ(teams[1 - has_large].boxes, (std::vector<std::size_t>{1, 2, 3}))
+      << "in the order in which they are flown to";
   std::size_t shared = 0;
   share_boxes(fleet, boxes, {.volume_weight = 0.0, .objective = kLongest}, teams);
   for (const StarTeam& team : teams) shared += team.boxes.size();
   EXPECT_EQ(shared, boxes.size());
 }
 
-/// Boxes in a row: the way of all together is shortest when one team takes all but one of them, however much work that
-/// is; the longest tour is shortest when they share.
-TEST(StarTeams, TheWayOfAllIsShortestWhateverTheVolumes) {
+/// The boxes stand in a row. Both teams together fly least if one of them takes all boxes but one, however much work
+/// that is. The longest tour is shortest if they share.
+TEST(StarTeams, AllTeamsTogetherFlyLeastWhateverTheVolumes) {
   std::size_t fewest = 0;  // boxes of a team when the longest tour counts, over all cases
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "boxes", 0);

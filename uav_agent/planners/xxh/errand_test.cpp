@@ -47,7 +47,7 @@ struct Asked : FlownUav {
     for (std::size_t i = 0; i < count; ++i) goals[i].way = {{{10.0 * static_cast<double>(i), 0.0, 10.0}, 1.0}};
     return goals;
   }
-  /// The core will tell this in the next exchange.
+  /// The core will report this outcome in the next exchange.
   void becomes(std::size_t choice, Kind kind) { flight.outcomes.push_back({.id = asked[choice].id, .kind = kind}); }
 
   FreeSpace space{FreeSpace::Config(), boxes, hits};
@@ -72,10 +72,10 @@ TEST(XxhErrand, EndsWithTheFirstChoiceThatIsReachedAndNothingElseIsFlownTo) {
   EXPECT_TRUE(uav.told->empty());
   uav.exchange();
   EXPECT_FALSE(uav.told);
-  EXPECT_FALSE(uav.errand.ended()) << "is told once";
+  EXPECT_FALSE(uav.errand.ended()) << "the end is reported once";
 }
 
-TEST(XxhErrand, IsUnderWayUntilAllChoicesCameToNothing) {
+TEST(XxhErrand, IsUnderWayUntilAllChoicesHaveFailed) {
   Asked uav;
   uav.set_out(3);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -93,7 +93,7 @@ TEST(XxhErrand, AUavThatWasCalledAwayChoosesAnew) {
   uav.flight.working = false;
   uav.exchange();
   EXPECT_FALSE(uav.errand.under_way());
-  ASSERT_TRUE(uav.told) << "what it wanted before is not flown to afterwards";
+  ASSERT_TRUE(uav.told) << "the core must not fly to its former goals afterwards";
   EXPECT_TRUE(uav.told->empty());
 }
 
@@ -124,7 +124,7 @@ TEST(XxhErrand, OutcomesOfEarlierGoalsDoNotCount) {
   }
 }
 
-TEST(XxhErrand, TellsOthersOfThePlacesThatComeNext) {
+TEST(XxhErrand, KnowsThePlacesThatComeNext) {
   Asked uav;
   uav.set_out(2);
   uav.flight.goal = uav.asked[1].id;
@@ -143,7 +143,7 @@ struct AtPost : Asked {
     exchange([&](const PlannerInput& in, PlannerOutput& out) { post.stay(places_W, 4.0, errand, in, out); });
     if (told && !told->empty()) asked = *told;
   }
-  /// @returns whether it asks for something within so many seconds.
+  /// @returns whether it sets a goal within so many seconds.
   bool asks_within(double s, const std::vector<Vector3d>& places_W) {
     for (int i = 0; i < static_cast<int>(s / agent.exchange_period_s); ++i) {
       stay(places_W);
@@ -156,19 +156,19 @@ struct AtPost : Asked {
 
 const std::vector<Vector3d> kPosts = {{20.0, 0.0, 1.0}, {20.0, 0.0, 9.0}, {20.0, 0.0, 14.0}};
 
-TEST(XxhPost, IsTheFirstPlaceThatIsFreeAndThereItStays) {
+TEST(XxhPost, IsTheFirstPlaceThatIsFreeAndTheUavStaysThere) {
   AtPost uav;
   uav.stay(kPosts);
-  ASSERT_EQ(uav.asked.size(), 2U) << "the first one is below what may be flown";
+  ASSERT_EQ(uav.asked.size(), 2U) << "the first place is lower than UAVs may fly";
   EXPECT_EQ(uav.asked[0].way.front().p_WB, kPosts[1]);
   uav.becomes(0, Kind::no_way);
   uav.becomes(1, Kind::reached);
-  ASSERT_TRUE(uav.asks_within(3.0, kPosts)) << "who wants nothing is taken elsewhere by the core";
+  ASSERT_TRUE(uav.asks_within(3.0, kPosts)) << "the core would take a UAV without a goal elsewhere";
   ASSERT_EQ(uav.asked.size(), 1U);
   EXPECT_EQ(uav.asked[0].way.front().p_WB, kPosts[2]);
 }
 
-TEST(XxhPost, WhereNoneIsFreeItWaitsWhereItIsAndTriesAgain) {
+TEST(XxhPost, WhereNoPlaceIsFreeTheUavWaitsWhereItIsAndTriesAgain) {
   AtPost uav;
   uav.stay({{20.0, 0.0, 1.0}});
   ASSERT_EQ(uav.asked.size(), 1U);
@@ -183,7 +183,7 @@ TEST(XxhPost, LeavesItToTheCoreForAWhileWhenThereIsNoWay) {
   uav.stay(kPosts);
   uav.becomes(0, Kind::no_way);
   uav.becomes(1, Kind::no_way);
-  EXPECT_FALSE(uav.asks_within(4.5, kPosts)) << "the core gets on who wants nothing for 4 s";
+  EXPECT_FALSE(uav.asks_within(4.5, kPosts)) << "the core helps a UAV that has set no goal for 4 s";
   EXPECT_TRUE(uav.asks_within(2.0, kPosts));
 }
 

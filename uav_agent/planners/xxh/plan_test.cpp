@@ -55,7 +55,7 @@ void for_many_sites(const auto& check) {
   }
 }
 
-TEST(XxhPlan, EverybodyIsInOneTeamAndEveryBoxIsCoveredOnce) {
+TEST(XxhPlan, EachUavIsInOneTeamAndEachBoxIsCoveredOnce) {
   for_many_sites([](const std::vector<XxhStart>& starts, const std::vector<OrientedBox>& boxes) {
     const XxhPlan plan = assign(starts, boxes, kTolerance);
     std::map<std::size_t, int> members;
@@ -123,7 +123,7 @@ TEST(XxhPlan, DoesNotDependOnTheOrderOfReports) {
   });
 }
 
-TEST(XxhPlan, GoesFromBoxToTheNearestEndOfTheNext) {
+TEST(XxhPlan, GoesFromEachBoxToTheNearestEndOfTheNext) {
   const std::vector<OrientedBox> row = {make_box({70.0, 0.0, 5.0}, {20.0, 6.0, 10.0}),
                                         make_box({10.0, 0.0, 5.0}, {20.0, 6.0, 10.0}),
                                         make_box({40.0, 0.0, 5.0}, {20.0, 6.0, 10.0})};
@@ -145,7 +145,7 @@ TEST(XxhPlan, CutsABoxAcrossItsLongestEdgeWhereTheShareEnds) {
   EXPECT_NEAR(region_box(plan.teams[1].regions[0], one[0]).center.x(), -20.0, 0.1);
 }
 
-TEST(XxhPlan, SurvivesTheRadioAndRefusesWhatIsDamaged) {
+TEST(XxhPlan, IsReadAsItWasWrittenAndADamagedOneIsRefused) {
   Draws draw(7);
   const auto boxes = draw_boxes(draw, 6);
   const XxhPlan plan = assign(draw_starts(draw, 5, 2), boxes, kTolerance);
@@ -163,7 +163,7 @@ TEST(XxhPlan, SurvivesTheRadioAndRefusesWhatIsDamaged) {
   }
 }
 
-/// A fleet on the ground and its station, all within earshot or not.
+/// A fleet on the ground and its station, which hear each other or not.
 struct Ground {
   AgentConfig agent;
   std::vector<OrientedBox> boxes;
@@ -212,7 +212,7 @@ struct Ground {
   }
 };
 
-TEST(XxhGround, AssignsWhatEverybodyWouldAssignItself) {
+TEST(XxhGround, AssignsWhatEachUavWouldAssignItself) {
   const Ground ground;
   for (const UavIndex uav : FirstUavs(4)) {
     const XxhTeam told = ground.team(uav, {0, 1, 2, 3}, true);
@@ -229,7 +229,7 @@ TEST(XxhGround, AUavThatCouldNotReportBelongsToTheFleetAllTheSame) {
   }
 }
 
-TEST(XxhGround, SaysNothingMoreWhenAllHaveHeard) {
+TEST(XxhGround, SendsNothingMoreOnceAllUavsHaveThePlan) {
   const Ground ground;
   AgentConfig config = ground.agent;
   config.self = UavIndex(config.fleet.size());

@@ -101,7 +101,8 @@ TEST(XxhRegion, CellsBesideAnOccupiedOneAreVisitedAndLookAtIt) {
   EXPECT_EQ(found, 6U);
 }
 
-/// Structure drawn in one layer: visited one after the other, it is gone around once, in the sense of the explorer.
+/// The test draws structure in one layer. Visits in the order of the spiral lead around it once, in the direction in
+/// which the explorer flies.
 TEST(XxhRegion, TheSpiralVisitsAllCellsOfALayerOnceAround) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "layer", 0);
@@ -133,7 +134,7 @@ TEST(XxhRegion, TheSpiralVisitsAllCellsOfALayerOnceAround) {
   }
 }
 
-TEST(XxhRegion, WhereNothingIsFreeNearIsLookedAtFromFartherOff) {
+TEST(XxhRegion, ATargetWithoutFreeSpaceNearbyIsLookedAtFromFartherOff) {
   LoneCell world;
   const Vector3d there_W = world.cell_W();
   const FreeSpace space(FreeSpace::Config(), world.no_boxes, world.map, {{there_W, 5.0}});
@@ -164,7 +165,7 @@ TEST(XxhRegion, ATargetBehindAPillarIsLookedAtFromAside) {
     if (visit.cell != in_front.front().cell) continue;
     EXPECT_TRUE(space.free(visit.p_WB));
     EXPECT_LT((visit.p_WB - target.surface_W).norm(), XxhRegionMap::Config().farthest_m + 0.01);
-    EXPECT_GT((visit.p_WB - target.surface_W).dot(target.out_W), 0.0) << "on the side that is looked at";
+    EXPECT_GT((visit.p_WB - target.surface_W).dot(target.out_W), 0.0) << "on the side to which the face points";
   }
 }
 
@@ -205,7 +206,7 @@ TEST(XxhRegion, EveryFaceThatCanBeSeenIsOneTarget) {
     for (VoxelGrid::Id id = 0; id < region.grid().count(); ++id) {
       for (const XxhTarget& target : region.targets(id)) {
         EXPECT_EQ(region.grid().at(target.surface_W), target.cube);
-        EXPECT_TRUE(seen.insert({target.cube, target.face}).second) << "from two cells";
+        EXPECT_TRUE(seen.insert({target.cube, target.face}).second) << "no face is a target of two cells";
       }
     }
     for (const VoxelGrid::Id cube : structure) {
@@ -218,7 +219,7 @@ TEST(XxhRegion, EveryFaceThatCanBeSeenIsOneTarget) {
   }
 }
 
-TEST(XxhRegion, NothingKnownIsNotEmptyAndWhatWasSeenToBeFreeIs) {
+TEST(XxhRegion, AnUnknownSectionIsNotEmptyAndOneThatWasSeenToBeFreeIs) {
   XxhRegionMap region = region_map();
   const auto all = region.section(0, 1, 1.0);
   WorldMap map{WorldMap::Config{}};
@@ -233,7 +234,7 @@ TEST(XxhRegion, NothingKnownIsNotEmptyAndWhatWasSeenToBeFreeIs) {
   EXPECT_TRUE(region.anything_known());
 }
 
-/// An inspector whose flight core tells of every choice what the test says.
+/// An inspector whose flight core reports the outcome that the test sets for every choice.
 struct Inspecting : LoneCell {
   explicit Inspecting(Outcome::Kind all_become, int layer_step = 1) : kind(all_become) {
     config.layer_step = layer_step;
@@ -266,11 +267,11 @@ struct Inspecting : LoneCell {
   std::vector<Outcome> outcomes;
 };
 
-/// Every layer as the paper says, or every third as the public code, or as many as are asked for.
+/// Inspectors visit each layer (as in the paper), each third one (as in the public code), or as configured.
 class XxhInspectorLayers : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Steps, XxhInspectorLayers, testing::Values(1, 2, 3, 5));
 
-TEST_P(XxhInspectorLayers, AreGoneOverAndAgainForWhatWasNotReached) {
+TEST_P(XxhInspectorLayers, AreVisitedThreeTimesIfTargetsAreNotReached) {
   Inspecting world(Outcome::Kind::no_way, GetParam());
   std::map<int, int> tried;  // choices, by layer
   for (int i = 0; i < 1000 && !world.inspector.finished(); ++i) {
@@ -297,7 +298,7 @@ TEST(XxhInspector, VisitsTheCellThatItCameToAndLooksAtItsTargets) {
   EXPECT_EQ(std::get<Vector3d>(goals.front().gimbal), world.inspector.target().surface_W);
   const XxhTarget target = world.inspector.target();
   world.region.grid().mark(target.cube, target.face);
-  EXPECT_FALSE(world.inspector.ahead(0, world.region)) << "somebody else has looked at it";
+  EXPECT_FALSE(world.inspector.ahead(0, world.region)) << "another UAV has looked at it";
   world.inspector.leave();
   EXPECT_FALSE(world.inspector.visit());
 }
@@ -319,7 +320,7 @@ struct Exploring : LoneCell {
     outcomes.clear();
     decide(in);
   }
-  /// @returns the choices; empty: it is through.
+  /// @returns the choices; empty: it has finished.
   std::vector<Goal> exchange() {
     PlannerOutput out;
     run([&](const PlannerInput& in) {
@@ -368,7 +369,7 @@ TEST(XxhExplorer, APlaceThatCannotBeReachedIsTriedOnceMoreAtTheEnd) {
   EXPECT_EQ(choices, 2 * static_cast<int>(spiral.size()));
 }
 
-TEST(XxhExplorer, IsThroughWhenItsTimeIsOver) {
+TEST(XxhExplorer, HasFinishedWhenItsTimeIsOver) {
   Exploring world;
   EXPECT_FALSE(world.exchange().empty());
   const auto finished_at = [&](double s) {

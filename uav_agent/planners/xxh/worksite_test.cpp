@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kClearanceM = 1.7;
 
-/// An upright box whose longest edge points up or, upside down, down; or one that lies.
+/// An upright box, whose longest edge points up, or down if it is upside down.
 OrientedBox upright(bool upside_down = false) {
   OrientedBox box = make_box({30.0, 10.0, 20.0}, {8.0, 10.0, 36.0}, 0.4);
   if (upside_down) box.R_WO = box.R_WO * Eigen::AngleAxisd(std::numbers::pi, Vector3d::UnitX()).toRotationMatrix();
@@ -29,7 +29,7 @@ struct AtWorksite {
     site.enter({.from_high_end = from_high_end}, box, {0.0, 0.0, 0.0}, kClearanceM);
   }
   XxhRegionMap::Section all() { return site.map().section(0, 1, 1.0); }
-  /// Height of the first layer above that of the last one: negative where it is begun at its foot.
+  /// Height of the first layer above that of the last one: negative if the region begins at its foot.
   double begins_above_m() {
     const VoxelGrid& grid = site.map().grid();
     double first_m = 0.0, last_m = 0.0;
@@ -81,7 +81,7 @@ TEST(XxhWorksite, LyingBoxesAndThePublicCodeBeginWhereThePathComesFrom) {
   }
 }
 
-TEST(XxhWorksite, IsOpenWhereSomePlaceOfTheFirstTurnIsProved) {
+TEST(XxhWorksite, BeginsInTheOpenIfAPlaceOfTheFirstTurnIsProved) {
   AtWorksite at;
   at.enter(upright());
   const std::vector<OrientedBox> no_boxes;
@@ -112,7 +112,7 @@ TEST(XxhWorksite, ADecisionForTheOtherEndTurnsTheMapAndOneForThisEndKeepsIt) {
   EXPECT_TRUE(at.site.map().anything_known());
   EXPECT_TRUE(at.site.decide(!at.site.from_high_end()));
   EXPECT_GT(at.begins_above_m(), 20.0);
-  EXPECT_FALSE(at.site.map().anything_known()) << "its cells are others now";
+  EXPECT_FALSE(at.site.map().anything_known()) << "it is a new map";
   EXPECT_LT(at.site.far_end_W().z(), 5.0) << "the team leaves it at its foot";
 }
 
@@ -146,7 +146,7 @@ TEST(XxhTalk, MapsOfOtherRegionsAreNotTakenIn) {
       XxhWord said, own;
       said.region = static_cast<std::uint16_t>(region);
       said.from_high_end = high;
-      for (std::uint64_t k = 0; k < 200; ++k) {  // of an exchange each: both know what the other has
+      for (std::uint64_t k = 0; k < 200; ++k) {  // exchanges in which both learn what the other has
         const Tick tick = static_cast<Tick>(k) * ticks(self.exchange_period_s);
         PlannerOutput from_mine, from_theirs;
         Peers near_self(self), near_other(other);
@@ -164,7 +164,7 @@ TEST(XxhTalk, MapsOfOtherRegionsAreNotTakenIn) {
   }
 }
 
-TEST(XxhPost, WhereMostOfTheExplorersWayIsInSightComesFirst) {
+TEST(XxhPost, ThePlaceThatSeesMostOfTheExplorersWayComesFirst) {
   const std::vector<OrientedBox> flat = {make_box({0.0, 0.0, 5.0}, {30.0, 30.0, 10.0})};
   const OccupancyMap hits;
   const FreeSpace space(FreeSpace::Config{}, flat, hits);
@@ -175,10 +175,10 @@ TEST(XxhPost, WhereMostOfTheExplorersWayIsInSightComesFirst) {
   const Vector3d low(24.0, 24.0, 4.0), high(24.0, 24.0, 60.0);
   std::vector<Vector3d> posts = {low, high};
   sort_by_sight(around, space, posts);
-  EXPECT_EQ(posts.front(), high) << "over a flat box all of it is in sight";
+  EXPECT_EQ(posts.front(), high) << "from high above a flat box, it sees the whole way";
   posts = {low, low + Vector3d(0.0, 0.0, 1.0)};
   sort_by_sight(around, space, posts);
-  EXPECT_EQ(posts.front(), low) << "of equals the first stays";
+  EXPECT_EQ(posts.front(), low) << "of places that see as much, the first stays first";
 }
 
 }  // namespace

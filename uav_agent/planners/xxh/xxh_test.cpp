@@ -7,7 +7,7 @@
 namespace skein::agent {
 namespace {
 
-TEST(XxhTalk, WordsSurviveTheRadio) {
+TEST(XxhTalk, WordsAreReadAsTheyWereWritten) {
   XxhWord word;
   word.start_W = {1.0, -2.0, 0.25};
   word.has_plan = word.done = true;
@@ -32,7 +32,8 @@ TEST(XxhTalk, WordsSurviveTheRadio) {
   }
 }
 
-/// A UAV of a fleet that hears the first and the last of it say where they are about to fly.
+/// The first and the last UAV of a fleet announce where they will fly. @returns of how many of both another UAV keeps
+/// clear.
 std::size_t keeps_clear_of(std::size_t self, double after_s, bool forever) {
   AgentConfig agent;
   agent.self = UavIndex(self);
@@ -60,7 +61,7 @@ TEST(XxhTalk, AUavThatHasLessPriorityKeepsClearOfTheOthersTrajectoriesForAWhile)
   EXPECT_EQ(keeps_clear_of(1, 60.0, true), 2U) << "as the public code: of everybody, for ever";
 }
 
-TEST(Xxh, PhotographsTheStructureAndBringsItHome) {
+TEST(Xxh, PhotographsTheStructureAndDeliversThePictures) {
   TestWorld world(two_towers(), test_fleet(3), "xxh", 400.0);
   world.run(400.0);
   EXPECT_GT(world.coverage(), 0.4);
