@@ -42,7 +42,7 @@ OccupancyMap map_of_tower(const Vector3d& centre, const Vector3d& size) {
   return map;
 }
 
-/// All that is there to do, in order.
+/// All tasks, in the order in which they come.
 std::vector<BlockWork::Task> all_tasks(BlockWork& work, const OccupancyMap& map) {
   std::vector<BlockWork::Task> tasks;
   while (tasks.size() < 1000) {
@@ -54,7 +54,7 @@ std::vector<BlockWork::Task> all_tasks(BlockWork& work, const OccupancyMap& map)
   return tasks;
 }
 
-TEST(BlockWork, TakesOnlyBoxesThatSayLittle) {
+TEST(BlockWork, TakesOnlySiteBoxes) {
   OrientedBox tower = site();
   tower.size = {30.0, 28.0, 120.0};
   OrientedBox podium = site();
@@ -117,7 +117,7 @@ TEST(BlockWork, AFailedTaskIsTriedAgainLater) {
   const OccupancyMap map = map_of_tower({45.0, 35.0, 0.0}, {20.0, 16.0, 40.0});
   std::set<BlockWork::Key> failed;
   for (auto task = work.next(0, Vector3d::Zero(), map); task; task = work.next(0, Vector3d::Zero(), map)) {
-    EXPECT_TRUE(failed.insert(task->key).second) << "not at once";
+    EXPECT_TRUE(failed.insert(task->key).second) << "a failed task does not come again at once";
     work.failed(*task, 0);
   }
   EXPECT_GT(failed.size(), 20U);

@@ -74,7 +74,7 @@ void expect_partition(const FleetTours& tours, std::size_t agents, std::size_t n
   EXPECT_EQ(tours.tours.size(), agents);
 }
 
-/// The least sum of all tours in which each agent has a task where there are enough: by all ways to deal tasks out.
+/// The least sum of all tours in which each agent has a task if there are enough. Tries all ways to deal tasks out.
 double least_total(const FleetTourProblem& p) {
   const std::size_t n = p.costs.nodes() - p.agents;
   std::vector<std::size_t> order(n);
@@ -117,7 +117,7 @@ TEST(FleetTours, TheSumOfAllIsNearlyLeastAndNoUavStaysWithoutATask) {
   EXPECT_LT(gaps / kInstances, 0.03);
 }
 
-TEST(FleetTours, SmallOnesAreNearlyOptimal) {
+TEST(FleetTours, WithFewTasksTheyAreNearlyOptimal) {
   double gaps = 0.0, worst = 0.0;
   constexpr int kInstances = 40;
   for (int i = 0; i < kInstances; ++i) {
@@ -152,13 +152,13 @@ TEST(FleetTours, AUavThatHasWorkAheadGetsLess) {
   EXPECT_EQ(tours.tours[1].size(), 40U);
 }
 
-TEST(FleetTours, MoreAgentsThanTasksAndNoTasks) {
+TEST(FleetTours, VisitEachTaskOnceIfThereAreFewerTasksThanAgentsOrNone) {
   const FleetTours few = solve_fleet_tours(random_problem(6, 2, 1));
   expect_partition(few, 6, 8);
   expect_partition(solve_fleet_tours(random_problem(3, 0, 1)), 3, 3);
 }
 
-TEST(FleetTours, AreRepeatableAndMeasuredAsTheyAre) {
+TEST(FleetTours, AreRepeatableAndAsLongAsTheyState) {
   const FleetTourProblem problem = random_problem(4, 60, 9);
   const FleetTours once = solve_fleet_tours(problem), again = solve_fleet_tours(problem);
   EXPECT_EQ(once.tours, again.tours);

@@ -34,7 +34,7 @@ void add_wall(OccupancyMap& map, const auto& depth, std::optional<Vector3d> seen
   map.insert(hits, seen_from);
 }
 
-TEST(Standoff, WithoutAMapTheFaceCounts) {
+TEST(Standoff, WithoutAMapItIsFromTheFaceOfTheBox) {
   const Facade facade;
   const OccupancyMap map;
   const auto runs =
@@ -66,7 +66,7 @@ TEST(Standoff, DoesNotEnterTheBoxWhereNoUavHasLooked) {
       map, [](double) { return 8.0; }, std::nullopt);  // hits alone do not prove that the way is free
   const auto runs =
       fit_strip(facade.strip, false, 0.0, {}, FreeSpace({.clearance_m = 1.8}, facade.boxes, map), facade.reach, {});
-  ASSERT_FALSE(runs.empty()) << "it looks from outside, from farther than it wishes";
+  ASSERT_FALSE(runs.empty()) << "it looks from outside the box, from farther away than intended";
   for (const auto& run : runs) {
     for (const Waypoint& w : run.waypoints) EXPECT_LT(w.p_WB.y(), -1.79);
   }
@@ -86,7 +86,7 @@ TEST(Standoff, LeavesOutWhatAnotherBoxHides) {
   EXPECT_GT(runs[0].first_s, 9.0) << "reversed: it begins at the top";
 }
 
-TEST(Standoff, GoesOnFromWhereTheUavIs) {
+TEST(Standoff, ContinuesFromWhereTheUavIs) {
   const Facade facade;
   const OccupancyMap map;
   const Vector3d now(0.0, -6.5, 25.0);

@@ -102,7 +102,7 @@ TEST_P(SharedStrips, EveryStripIsGivenExactlyOnceAndNoUavHasMuchMore) {
 
 INSTANTIATE_TEST_SUITE_P(Fleets, SharedStrips, testing::Values(1U, 2U, 5U, 8U, 20U));
 
-TEST(SharedStrips, NoStripsNoTours) {
+TEST(SharedStrips, WithoutStripsAllToursAreEmpty) {
   const auto tours = share_strips({}, {}, {Vector3d::Zero(), Vector3d::UnitX()}, 4.0);
   ASSERT_EQ(tours.size(), 2U);
   EXPECT_TRUE(tours[0].empty() && tours[1].empty());

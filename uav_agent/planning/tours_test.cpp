@@ -119,7 +119,7 @@ TEST(Tours, AHundredNodesAreMuchBetterThanNearestNeighbour) {
   EXPECT_LT(solved, 0.87 * nearest);
 }
 
-TEST(Tours, TheSmallestOnes) {
+TEST(Tours, UpToTwoNodesAreVisitedInTheirOrder) {
   EXPECT_TRUE(solve_tour(CostMatrix(0)).empty());
   EXPECT_EQ(solve_tour(CostMatrix(1)), Tour{0});
   EXPECT_EQ(solve_tour(CostMatrix(2)), (Tour{0, 1}));

@@ -63,7 +63,7 @@ TEST(Viewpoints, RingsAroundBoxesKeepTheStandoffAndGoDown) {
   }
 }
 
-TEST(Viewpoints, VisibilityIsWhatRaysSay) {
+TEST(Viewpoints, VisibilityIsThatOfRays) {
   const VoxelGrid grid = scattered(0.08);
   Draw draw;
   int visible = 0, hidden = 0, differing = 0;
@@ -75,7 +75,7 @@ TEST(Viewpoints, VisibilityIsWhatRaysSay) {
   }
   EXPECT_GT(visible, 20);
   EXPECT_GT(hidden, 20);
-  EXPECT_LE(differing, 1) << "a corner passed by less than a millimetre";
+  EXPECT_LE(differing, 1) << "a ray may pass a corner within less than a millimetre";
 }
 
 TEST(Viewpoints, TargetsMustBeInRangeInTheImageAndUnhidden) {
@@ -119,7 +119,7 @@ TEST(Viewpoints, ClustersAreNearAndSeeTheirFirst) {
   EXPECT_LT(clusters.size(), places.size());
 }
 
-/// Every combination, one after the other.
+/// Tries every combination.
 double shortest_by_force(const Vector3d& from_W, const std::vector<std::vector<Vector3d>>& options, std::size_t stop) {
   if (stop == options.size()) return 0.0;
   double shortest = std::numeric_limits<double>::infinity();
@@ -129,7 +129,7 @@ double shortest_by_force(const Vector3d& from_W, const std::vector<std::vector<V
   return shortest;
 }
 
-TEST(Viewpoints, TheWayThroughOneOfSeveralPlacesEachIsShortest) {
+TEST(Viewpoints, TheWayThroughOnePlaceOfEachStopIsTheShortest) {
   Draw draw;
   const Vector3d from(0.0, 0.0, 0.0);
   for (std::size_t stops = 0; stops < 6; ++stops) {

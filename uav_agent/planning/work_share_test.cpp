@@ -51,7 +51,7 @@ TEST(TeamShare, EveryStripIsGivenExactlyOnce) {
   }
 }
 
-/// A photographer may fly only where its explorer has been: its strips lie beside those of one.
+/// A photographer may fly only where its explorer has been, so its strips lie beside those of an explorer.
 TEST(TeamShare, NextToAPhotographersStripIsOneOfAnExplorer) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const AgentConfig agent = drawn_fleet(seed, 2, 3);

@@ -51,7 +51,7 @@ TEST_F(PythonPlannerTest, LinksHaveTheirQuality) {
   EXPECT_EQ(refusal(*planning("assert inputs.peers[0].link is None and inputs.station_link is None")), "");
 }
 
-TEST_F(PythonPlannerTest, MapsAreAskedOneByOneAndAllAtOnce) {
+TEST_F(PythonPlannerTest, MapsAnswerForOnePlaceAndForManyAtOnce) {
   map_.insert({{5.1F, 5.1F, 5.1F}, {9.1F, 5.1F, 5.1F}}, std::nullopt);
   world_.set_free({0.25, 0.25, 0.25}, 0.1);
   const auto planner = planning(
@@ -130,8 +130,8 @@ TEST_F(PythonPlannerTest, VectorsArriveFromArraysOfAnyKindOfNumbers) {
   }
 }
 
-/// Questions to maps take the same arrays.
-TEST_F(PythonPlannerTest, MapsAreAskedInAnyByteOrder) {
+/// Maps accept the same arrays of places.
+TEST_F(PythonPlannerTest, MapsAcceptArraysOfAnyByteOrder) {
   const auto planner = planning(
       "places = np.array([[5.1, 5.1, 5.1], [0, 0, 0]])\n"
       "        for order in ('>f8', '>f4', '<f8'):\n"
@@ -154,8 +154,8 @@ TEST_F(PythonPlannerTest, GoalsNeedTheFlightCore) {
   expect_has(refusal(*planning(goal)), {"goals", "flight()"});
 }
 
-/// All fields with all kinds of wrong values: each is refused by its field's name, or is a right one; and the planner
-/// can be asked again, so nothing was left in pieces.
+/// Each field gets each of many values, most of them wrong. The error of a wrong value names the field, and the planner
+/// can be called again afterwards.
 TEST_F(PythonPlannerTest, WrongOutputsAreRefusedByName) {
   const std::string bad =
       "class Odd:\n"
@@ -183,7 +183,7 @@ TEST_F(PythonPlannerTest, WrongOutputsAreRefusedByName) {
                                    "        return OUTPUTS[inputs.k]()\n"));
   const std::vector<std::string> fields = {"motion",     "yaw",        "gimbal", "trigger",   "radio", "goals",
                                            "heard_maps", "going_to_W", "no_way", "waits_for", "debug", "plan()"};
-  constexpr std::size_t kValues = 54, kAlways = 3;  // no number that is not finite is right anywhere
+  constexpr std::size_t kValues = 54, kAlways = 3;  // no field accepts a number that is not finite
   std::size_t refused = 0;
   for (std::size_t i = 0; i < fields.size() * kValues; ++i) {
     const std::string text = refusal(*all, i);
@@ -194,7 +194,7 @@ TEST_F(PythonPlannerTest, WrongOutputsAreRefusedByName) {
     EXPECT_EQ(text.find("jurong's planner"), 0U) << text;
     expect_has(text, {"was refused: " + fields[i / kValues], "at step " + std::to_string(i) + " ("});
   }
-  EXPECT_GT(refused, 12 * kValues - 40) << "few values are right somewhere";
+  EXPECT_GT(refused, 12 * kValues - 40) << "only few fields accept one of the values";
   EXPECT_LT(refused, 12 * kValues);
   EXPECT_NE(refusal(*all, fields.size() * kValues), "") << "there is no such output: all values were asked for";
 }
@@ -206,7 +206,7 @@ TEST_F(PythonPlannerTest, AnExceptionNamesUavAndStepBelowItsTraceback) {
   const std::string text = refusal(*planner, 120);
   expect_has(text, {"Traceback", "mine.py", "in deep", "RuntimeError: too deep at 120"});
   EXPECT_TRUE(text.ends_with("mine.py failed, at step 120 (6.00 s)")) << text;
-  EXPECT_EQ(text.find("_embedded"), std::string::npos) << "our own frames";
+  EXPECT_EQ(text.find("_embedded"), std::string::npos) << "the traceback does not show Skein's own frames";
   expect_has(refusal(*planning("import sys; sys.exit(3)")), {"SystemExit: 3"});
   expect_has(refusal(*planning("import os; os.fork()")), {"fork"});
   expect_has(refusal(*planning("breakpoint()")), {"--debug UAV=pdb"});
@@ -286,7 +286,7 @@ TEST_F(PythonPlannerTest, APlannerThatCannotBeLoadedIsBadInput) {
   expect_has(error(good + "    def debug_names(self): return 'abc'\n"), {"debug_names()"});
 }
 
-/// Two UAVs of one process, in turn, and each alone: the same numbers.
+/// Two UAVs in one process, called in turns, draw the same numbers as each UAV alone.
 TEST_F(PythonPlannerTest, GeneratorsAndModulesAreEachUavsOwn) {
   std::ofstream(folder_ / "shared.py") << "count = 0\n";
   const std::string spec = file(
@@ -310,8 +310,8 @@ TEST_F(PythonPlannerTest, GeneratorsAndModulesAreEachUavsOwn) {
   }
   EXPECT_EQ(together, alone);
   EXPECT_NE(alone[0], alone[1]);
-  EXPECT_NE(said(*make(spec, 6, 0)), alone[0][0]) << "of another seed";
-  EXPECT_EQ(said(*make(spec, 5, 0)), alone[0][0]) << "one that is started again begins anew";
+  EXPECT_NE(said(*make(spec, 6, 0)), alone[0][0]) << "another seed gives other numbers";
+  EXPECT_EQ(said(*make(spec, 5, 0)), alone[0][0]) << "a restarted planner draws the same numbers again";
 }
 
 TEST_F(PythonPlannerTest, TheFlightConfigOfPythonIsThatOfCpp) {

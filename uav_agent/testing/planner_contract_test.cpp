@@ -20,8 +20,8 @@ constexpr double kSmallestGapM = 0.3;               ///< between two bodies
 constexpr double kUnmeasuredM = 1e3;                ///< a distance that no UAV flew in
 
 /// A file of drawn commands: up, and then anything.
-std::string hands_of_anybody() {
-  const auto file = std::filesystem::path(testing::TempDir()) / "hands_of_anybody.csv";
+std::string drawn_hand_commands() {
+  const auto file = std::filesystem::path(testing::TempDir()) / "drawn_hand_commands.csv";
   std::ofstream out(file);
   RandomStream random(5, "hands of anybody", 0);
   out << hand_file::head() << hand_file::line_of({20, 400, {.velocity = {0.0, 0.0, 2.0}}});
@@ -35,7 +35,7 @@ std::string hands_of_anybody() {
 
 /// The value of --planner for a planner. One that needs a file gets a file with a place above the start of every UAV.
 std::string spec_of(const std::string& name, const std::vector<TestUav>& fleet) {
-  if (name == kHandPlanner) return name + ":" + hands_of_anybody();
+  if (name == kHandPlanner) return name + ":" + drawn_hand_commands();
   if (name != "waypoints") return name;
   const auto file = std::filesystem::path(testing::TempDir()) / ("paths_of_" + std::to_string(fleet.size()) + ".yaml");
   std::ofstream out(file);
@@ -59,14 +59,14 @@ class EveryPlanner : public testing::TestWithParam<std::string> {
     EXPECT_GT(world.gap(), kSmallestGapM);
     EXPECT_LE(world.longest_message(), 2 * kMaxPayloadBytes);
   }
-  /// Without that, keeping clear of everything would prove nothing.
+  /// If no UAV flew, keeping clear of everything would prove nothing.
   static void expect_all_flew(const TestWorld& world, std::size_t uavs) {
     if (GetParam() == "learner") {  // no program commands it here
       for (const UavIndex uav : FirstUavs(uavs)) EXPECT_LT(world.highest_m(uav), 1.0) << "uav" << uav;
       return;
     }
     for (const UavIndex uav : FirstUavs(uavs)) EXPECT_GT(world.highest_m(uav), 1.5) << "uav" << uav;
-    EXPECT_LT(world.clearance(), kUnmeasuredM) << "nobody came near anything";
+    EXPECT_LT(world.clearance(), kUnmeasuredM) << "no UAV came near structure";
     EXPECT_EQ(world.separation() < kUnmeasuredM, uavs > 1);
   }
 };
@@ -81,42 +81,42 @@ TestScene many_boxes(int count) {
   return scene;
 }
 
-TEST_P(EveryPlanner, SameInputSameOutput) {
+TEST_P(EveryPlanner, GivesTheSameOutputsForTheSameInputs) {
   TestWorld once = world(two_towers(), 3, 90.0), again = world(two_towers(), 3, 90.0);
   once.run(90.0);
   again.run(90.0);
   EXPECT_EQ(once.fingerprint(), again.fingerprint());
 }
 
-TEST_P(EveryPlanner, OneUavAlone) {
+TEST_P(EveryPlanner, KeepsTheRulesWithOneUav) {
   TestWorld alone = world(two_towers(), 1, 120.0);
   alone.run(120.0);
   expect_sound(alone);
   expect_all_flew(alone, 1);
 }
 
-TEST_P(EveryPlanner, EightUavs) {
+TEST_P(EveryPlanner, KeepsTheRulesWithEightUavs) {
   TestWorld eight = world(two_towers(), 8, 100.0);
   eight.run(100.0);
   expect_sound(eight);
   expect_all_flew(eight, 8);
 }
 
-TEST_P(EveryPlanner, OneBox) {
+TEST_P(EveryPlanner, KeepsTheRulesWithOneBox) {
   TestWorld one = world(many_boxes(1), 3, 90.0);
   one.run(90.0);
   expect_sound(one);
   expect_all_flew(one, 3);
 }
 
-TEST_P(EveryPlanner, FifteenBoxes) {
+TEST_P(EveryPlanner, KeepsTheRulesWithFifteenBoxes) {
   TestWorld fifteen = world(many_boxes(15), 4, 100.0);
   fifteen.run(100.0);
   expect_sound(fifteen);
   expect_all_flew(fifteen, 4);
 }
 
-TEST_P(EveryPlanner, PeersThatNeverSayAWord) {
+TEST_P(EveryPlanner, KeepsTheRulesIfNoMessagesArrive) {
   TestScene scene = two_towers();
   scene.talk = false;
   TestWorld silent = world(scene, 4, 120.0);
@@ -125,8 +125,8 @@ TEST_P(EveryPlanner, PeersThatNeverSayAWord) {
   expect_all_flew(silent, 4);
 }
 
-/// No UAV sees another one, so none can give way: all else holds, of every one of them.
-TEST_P(EveryPlanner, NoRadioAtAll) {
+/// No UAV sees another one, so none can give way. All other rules hold.
+TEST_P(EveryPlanner, KeepsTheRulesWithoutRadio) {
   TestScene scene = two_towers();
   scene.radio = false;
   TestWorld dark = world(scene, 3, 120.0);
@@ -136,12 +136,12 @@ TEST_P(EveryPlanner, NoRadioAtAll) {
   expect_all_flew(dark, 3);
 }
 
-/// There is nothing to hit but one another, and nothing to look at: they stay where they are, or near it.
-TEST_P(EveryPlanner, AnEmptyMapAndNoBoxes) {
+/// The UAVs can hit only each other, and have nothing to look at. They stay near their starts.
+TEST_P(EveryPlanner, KeepsTheRulesWithAnEmptyMapAndNoBoxes) {
   TestWorld empty = world(TestScene(), 2, 60.0);
   empty.run(60.0);
   expect_sound(empty);
-  EXPECT_EQ(empty.clearance(), 1e9) << "of nothing";
+  EXPECT_EQ(empty.clearance(), 1e9) << "there is no structure";
   for (const UavIndex uav : FirstUavs(2)) {
     EXPECT_GE(empty.position(uav).z(), 0.0);
     EXPECT_LT((empty.position(uav).head<2>() - test_fleet(2)[uav].start).norm(), 60.0);
@@ -149,7 +149,7 @@ TEST_P(EveryPlanner, AnEmptyMapAndNoBoxes) {
   }
 }
 
-TEST_P(EveryPlanner, ItsOwnRestartInFlight) {
+TEST_P(EveryPlanner, KeepsTheRulesWhenItIsRestartedInFlight) {
   TestWorld restarted = world(two_towers(), 3, 150.0);
   restarted.run(70.0);
   restarted.restart(0);

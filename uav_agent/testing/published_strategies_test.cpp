@@ -1,5 +1,5 @@
-// The published strategies off the beaten track: fleets and boxes that the paper does not have, drawn; and what
-// `faithful=true` changes, all of which docs/strategies.md tells.
+// The published strategies with fleets and boxes that their papers do not have, and what `faithful=true` changes:
+// docs/strategies.md must list all of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,14 +60,14 @@ TEST_P(PublishedStrategy, InspectsWhateverTheBoxes) {
   around_all.boxes = {make_box({14.0, 12.0, 16.0}, {54.0, 26.0, 32.0})};
   overlapping.boxes.push_back(overlapping.boxes[0]);
   overlapping.boxes.back().center += Vector3d(4.0, 1.0, 1.0);
-  one.boxes.pop_back();  // a team stays without
+  one.boxes.pop_back();  // one team gets no box
   for (const TestScene* scene : {&around_all, &overlapping, &one}) {
     SCOPED_TRACE(std::to_string(scene->boxes.size()) + " boxes");
     expect_work(*scene, fleet_of(2, 2), GetParam());
   }
 }
 
-/// By a clock that counts its readings: a part that is timed takes at least one of them.
+/// The clock counts its readings, so a part that is timed takes at least one unit of time.
 TEST_P(PublishedStrategy, FliesTheSameWhileItsPartsAreTimed) {
   TestWorld alone(two_towers(), fleet_of(1, 1), GetParam(), 300.0);
   TestWorld timed(two_towers(), fleet_of(1, 1), GetParam(), 300.0);
@@ -107,7 +107,7 @@ void list_changes(const std::string& planner, std::vector<std::string>& lines) {
   }
 }
 
-TEST(Faithful, ChangesWhatItsTableTellsAndNothingElse) {
+TEST(Faithful, ChangesWhatItsTableListsAndNothingElse) {
   std::vector<std::string> changes;
   list_changes<KiosConfig>("kios", changes);
   list_changes<XxhConfig>("xxh", changes);
@@ -124,9 +124,9 @@ TEST(Faithful, ChangesWhatItsTableTellsAndNothingElse) {
   EXPECT_EQ(told, changes);
 }
 
-/// The configuration comes from the code that flies, so a behaviour that `faithful` changes aside of it is not in the
-/// table: planners may look at the parameter in resolved() alone.
-TEST(Faithful, IsLookedAtWhereParametersAreFilledInAlone) {
+/// The test of the table compares configurations. So planners may read `faithful` only in resolved(), because the table
+/// would not show other changes of behaviour.
+TEST(Faithful, IsReadOnlyWhereParametersAreFilledIn) {
   for (const std::string planner : {"kios", "xxh", "star"}) {
     for (const auto& file : std::filesystem::directory_iterator(source_path("uav_agent/planners/" + planner))) {
       const std::string name = file.path().filename();
@@ -138,7 +138,7 @@ TEST(Faithful, IsLookedAtWhereParametersAreFilledInAlone) {
 }
 
 /// `faithful` does not change parameters that the user sets by name.
-TEST(Faithful, GivesWayToWhatIsGiven) {
+TEST(Faithful, LeavesGivenParametersUnchanged) {
   XxhConfig config;
   config.faithful = true;
   config.layer_step = 2;

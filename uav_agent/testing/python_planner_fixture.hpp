@@ -1,4 +1,5 @@
-// Planners in Python for tests: made of code in a folder of the test, and called with inputs made here.
+// Planners in Python for tests. The fixture writes their code to a folder of the test, and calls them with inputs of
+// its own.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ class PythonPlannerTest : public testing::Test {
   }
   ~PythonPlannerTest() override { fs::remove_all(folder_); }
 
-  /// @param code  behind the imports. @returns the spec of a file that has it.
+  /// @param code  follows the imports. @returns the spec of a file with this code.
   std::string file(const std::string& code, const std::string& name = "mine.py") const {
     std::ofstream(folder_ / name) << kHead << code;
     return "py:" + (folder_ / name).string();

@@ -42,9 +42,9 @@ class TestWorld {
   ~TestWorld();
 
   void run(double seconds_to_run);
-  /// Times the parts of the work of all UAVs' on-board software, by this clock. Not that of a restarted UAV.
+  /// Times the parts of the work of all UAVs' on-board software, by this clock. A restarted UAV is no longer timed.
   void time_parts(const WorkParts::Clock& clock);
-  /// Its times. Only after time_parts().
+  /// The times of one UAV. Only after time_parts().
   const WorkParts& parts(std::size_t uav) const;
   /// Restarts the on-board software of one UAV in flight: it has lost all its knowledge.
   void restart(std::size_t uav);
