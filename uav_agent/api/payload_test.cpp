@@ -15,7 +15,7 @@ PayloadWriter all_bytes() {
   return writer;
 }
 
-TEST(Payload, NumbersComeBackAsTheyWent) {
+TEST(Payload, NumbersAreReadAsTheyWereWritten) {
   PayloadWriter writer;
   writer.u8(200);
   writer.u16(51'234);

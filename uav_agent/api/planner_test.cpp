@@ -33,7 +33,7 @@ std::filesystem::path write_file(const std::string& name, const std::string& tex
   return path;
 }
 
-TEST(Planner, TheShippedOnesAreRegistered) {
+TEST(Planner, ShippedPlannersAreRegistered) {
   const auto names = planner_names();
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
   for (const std::string name : {"hover", "patrol", "waypoints"}) {

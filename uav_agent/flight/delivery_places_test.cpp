@@ -69,9 +69,9 @@ TEST(DeliveryPlaces, AvoidWhatTheMapShows) {
   map.insert(roof, std::nullopt);
   const std::vector<OrientedBox> boxes;
   const FreeSpace space({.clearance_m = 1.8}, boxes, map);
-  for (const Vector3d& place : delivery_places(fleet_beside_station(1, 0), space, 12.0)) {
-    EXPECT_GT((place - Vector3d(-1.0, 0.0, 0.3)).head<2>().norm(), 8.0);
-  }
+  const auto places = delivery_places(fleet_beside_station(1, 0), space, 12.0);
+  ASSERT_FALSE(places.empty());
+  for (const Vector3d& place : places) EXPECT_GT((place - Vector3d(-1.0, 0.0, 0.3)).head<2>().norm(), 8.0);
 }
 
 TEST(TimeHome, GrowsWithDistanceAndLeavesTimeToSpare) {

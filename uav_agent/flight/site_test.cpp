@@ -64,10 +64,10 @@ TEST(Site, TheWayOutLeadsThroughAllBoxesThatFollowOneAnother) {
     });
   }
   EXPECT_GT(none, 10);
-  EXPECT_GT(more, 10) << "it gets into further boxes";
+  EXPECT_GT(more, 10) << "the way out often leads through further boxes";
 }
 
-TEST(Due, OncePerPeriodAndInAnotherExchangeWithAnotherOffset) {
+TEST(Due, OccursOncePerPeriodAndInAnotherExchangeWithAnotherOffset) {
   const AgentConfig agent;
   std::set<std::uint64_t> first, second;
   for (std::uint64_t k = 0; k < 100; ++k) {

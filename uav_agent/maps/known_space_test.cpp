@@ -80,7 +80,7 @@ TEST_P(DrawnSpace, IndexesHoldTheSameAsTheTrees) {
   for (int passed = 1; passed <= 6; ++passed) EXPECT_TRUE(counts.contains(passed)) << passed;
 }
 
-TEST_P(DrawnSpace, HitsInABoxComeAsOctoMapWalksThroughThem) {
+TEST_P(DrawnSpace, HitsInABoxComeInTheOrderOfOctoMap) {
   const auto tree = read_back(space_.octomap_file(kCountedRays + 1));
   tree->expand();
   const auto point = [](const Vector3d& p_W) {

@@ -32,7 +32,7 @@ void draw_links(NewsRadio& radio, RandomStream& random) {
   radio.linked = [](std::size_t i, std::size_t j) { return i + 1 == j || j + 1 == i; };
 }
 
-TEST(MapNews, AllKnowTheSameInTheEndWhateverIsLostAndNoSecondHasMoreBytesThanItMay) {
+TEST(MapNews, AllUavsEndUpWithTheSameMapAndSendNoMoreBytesThanTheyMay) {
   constexpr int kDrawn = 10, kMost = 2000;
   for (std::uint64_t seed = 1; seed <= kDrawn; ++seed) {
     RandomStream random(seed, "news_drawn", 0);

@@ -149,7 +149,7 @@ TEST(MapSubtrees, UniformSpaceIsOneLeafOfUpToFourChunks) {
   EXPECT_EQ(read_subtrees({}, 3), std::vector<HeardCube>());
 }
 
-TEST(MapSubtrees, NoTreeMakesAMapLargerThanItsBytesMay) {
+TEST(MapSubtrees, TreesThatAreTooLargeOrTooDeepAreRefused) {
   const std::vector<std::uint8_t> all_free = {0x55, 0x55}, all_occupied = {0xAA, 0xAA};
   EXPECT_FALSE(read_subtrees(all_free, 3)) << "32 km of free space";
   EXPECT_FALSE(read_subtrees(all_occupied, 3));

@@ -153,7 +153,7 @@ TEST_F(AgentTest, MarksFreeSpaceOnlyIfItKnowsWhereTheSensorStood) {
   input_.state.p_WB = {0.0, -30.0, 10.0};
   input_.key_frames = {{.points_W = wall()}};
   step();
-  EXPECT_FALSE(tape_.near_is_free) << "nobody with a LiDAR is linked";
+  EXPECT_FALSE(tape_.near_is_free) << "no UAV with a LiDAR is linked";
   input_.neighbours = {first, second};
   input_.key_frames = {{.points_W = wall()}};
   step();

@@ -62,6 +62,7 @@ TEST(Strips, AreNoLongerThanAsked) {
   RandomStream random(11, "boxes", 0);
   const auto strips =
       cut_into_strips({random_box(random), random_box(random)}, camera_reach({}, 2.0), {.max_length_m = 20.0});
+  ASSERT_FALSE(strips.empty());
   for (const Strip& strip : strips) EXPECT_LE(strip.length(), 20.0 + 1e-9);
 }
 

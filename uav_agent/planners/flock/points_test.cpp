@@ -53,7 +53,7 @@ void talk(std::vector<FlockPoints>& uavs, RandomStream& random, int rounds, Tick
 
 /// Each of three UAVs found points, some of them the same. In the end, all UAVs know the best quality of each point.
 /// Then one of them is restarted, and gets everything back.
-TEST(FlockPoints, AllEndUpWithTheBestOfAllWhateverIsLost) {
+TEST(FlockPoints, AllUavsEndUpWithTheBestQualitiesWhateverMessagesAreLost) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "points", 0);
     std::vector<FlockPoints> uavs(3);
@@ -130,7 +130,7 @@ TEST(FlockPoints, DriftMakesNoNewPoints) {
 }
 
 /// A dense region has more points than a message has room for.
-TEST(FlockPoints, DenseRegionsGoOutInSlices) {
+TEST(FlockPoints, DenseRegionsAreSentInSlices) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "points", 1);
     std::vector<FlockPoints> uavs(3);

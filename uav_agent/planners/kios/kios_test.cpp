@@ -192,7 +192,7 @@ TEST(KiosTalk, ClaimsTravelAndExpire) {
   EXPECT_TRUE(hears.claimed(400 + ticks(10.0)).empty());
 }
 
-TEST(KiosPatience, AUavThatComesBackBelievesPhotographersThatWork) {
+TEST(KiosPatience, AUavThatComesBackStopsWaitingIfPhotographersWork) {
   const AgentConfig speaker = agent_of(1, 1, 2), listener = agent_of(2, 1, 2);
   VoxelGrid theirs = long_volume(), ours = long_volume();
   const OccupancyMap map;
