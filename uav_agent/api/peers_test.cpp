@@ -67,7 +67,7 @@ TEST(Peers, HaveTheLinkOfThisExchangeAndNoOther) {
   peers.update(0, both, {{Node{2}, poor}, {kStationNode, good}, {Node{3}, good}});
   EXPECT_EQ(peers.all()[0].link, poor);
   EXPECT_EQ(peers.station_link(), good);
-  EXPECT_FALSE(peers.all()[1].link) << "is not in line of sight";
+  EXPECT_FALSE(peers.all()[1].link) << "that UAV is not in line of sight";
   peers.update(20, both);
   EXPECT_TRUE(peers.all()[0].visible && peers.station_visible());
   EXPECT_FALSE(peers.all()[0].link || peers.station_link()) << "ideal links have no quality";

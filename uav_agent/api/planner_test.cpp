@@ -96,11 +96,11 @@ TEST(WaypointsPlanner, VisitsAllStopsLooksAndStays) {
   const auto track = fly("waypoints:" + file.string(), 40.0, &gimbal);
   const auto at_second = std::count_if(track.begin(), track.end(),
                                        [](const Vector3d& p) { return (p - Vector3d(10, 0, 5)).norm() < 0.01; });
-  EXPECT_GE(at_second, 40) << "two seconds";
+  EXPECT_GE(at_second, 40) << "it stays for two seconds";
   EXPECT_NEAR((track.back() - Vector3d(10, 0, 1)).norm(), 0.0, 1e-9);
   ASSERT_FALSE(gimbal.empty());
   const bool looked = std::any_of(gimbal.begin(), gimbal.end(), [](const GimbalCommand& g) { return g.yaw > 1.4; });
-  EXPECT_TRUE(looked) << "to the left, at the end of the second leg";
+  EXPECT_TRUE(looked) << "it looks to the left at the end of the second leg";
 }
 
 }  // namespace

@@ -48,9 +48,9 @@ TEST(FreeSpace, SpaceThatRaysPassedMayBeEnteredUpToTheClearance) {
   const OccupancyMap map = seen_from_above(18.0);
   const FreeSpace space({.clearance_m = 1.8, .jut_m = 3.0}, boxes, map);
   EXPECT_TRUE(space.free({0.0, 0.0, 27.0})) << "beside the box";
-  EXPECT_TRUE(space.free({0.0, 0.0, 24.0})) << "in it";
+  EXPECT_TRUE(space.free({0.0, 0.0, 24.0})) << "in the box";
   EXPECT_FALSE(space.free({0.0, 0.0, 19.5})) << "too near to what was hit";
-  EXPECT_FALSE(space.free({0.0, 0.0, 15.5})) << "behind it";
+  EXPECT_FALSE(space.free({0.0, 0.0, 15.5})) << "behind what was hit";
 }
 
 /// A wall in the plane x = 0 that another UAV reported.
@@ -75,10 +75,10 @@ TEST(FreeSpace, AWayOutComesNoNearerToStructure) {
     const bool leads_out = space.leads_out(from_W, to_W);
     const double nearer_m = from_W.x() - to_W.x();
     if (nearer_m < -0.1) {
-      EXPECT_TRUE(leads_out) << "away from the wall";
+      EXPECT_TRUE(leads_out) << "the way leads away from the wall";
     }
     if (nearer_m > 1.0) {
-      EXPECT_FALSE(leads_out) << "towards it, or through it";
+      EXPECT_FALSE(leads_out) << "the way leads towards the wall, or through it";
     }
     out += leads_out ? 1 : 0;
   }

@@ -57,7 +57,7 @@ TEST(PathSearch, FindsTheWindowInAWall) {
   ASSERT_TRUE(path);
   EXPECT_EQ(path->back(), to);
   expect_free(space, from, *path);
-  EXPECT_LT(path_length(from, *path), 60.0) << "through the window, not around the wall";
+  EXPECT_LT(path_length(from, *path), 60.0) << "the path leads through the window, not around the wall";
 }
 
 TEST(PathSearch, GoesAroundUnknownBoxes) {
@@ -98,7 +98,7 @@ TEST(PathSearch, GoesAsNearAsPossibleToAGoalThatCannotBeReached) {
     ASSERT_TRUE(path) << "case " << i;
     const Vector3d end = path->back();
     EXPECT_TRUE(space.free(end));
-    EXPECT_LT((end - goal).norm(), 17.0) << "just beside the box";
+    EXPECT_LT((end - goal).norm(), 17.0) << "the path ends just beside the box";
     EXPECT_FALSE(find_approach(space, boxes, end, goal, kWorthM))
         << "case " << i << ": it is already as near as possible";
   }

@@ -73,7 +73,7 @@ TEST(Due, OccursOncePerPeriodAndInAnotherExchangeWithAnotherOffset) {
   for (std::uint64_t k = 0; k < 100; ++k) {
     if (agent.due(k, 0.5, 0)) first.insert(k % 10);
     if (agent.due(k, 0.5, 3)) second.insert(k % 10);
-    EXPECT_TRUE(agent.due(k, 0.0, 0)) << "at most once an exchange";
+    EXPECT_TRUE(agent.due(k, 0.0, 0)) << "with a period of 0, in each exchange";
   }
   EXPECT_EQ(first, std::set<std::uint64_t>({0}));
   EXPECT_EQ(second, std::set<std::uint64_t>({7}));

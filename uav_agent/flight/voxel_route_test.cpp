@@ -37,7 +37,7 @@ TEST_F(VoxelRoute, LeadsAroundTheWallOnLegsThatAreFree) {
   const auto route = find_voxel_route(grid_, space(), here_, there_);
   ASSERT_TRUE(route);
   EXPECT_EQ(route->back(), there_);
-  EXPECT_LE(route->size(), 5U) << "shortened";
+  EXPECT_LE(route->size(), 5U) << "the route is shortened";
   Vector3d at = here_;
   for (const Vector3d& corner : *route) {
     EXPECT_TRUE(space().segment_free(at, corner));
@@ -51,7 +51,7 @@ TEST_F(VoxelRoute, ClaimedCubesAreNotEntered) {
     for (int z = 0; z < 3; ++z) claimed.insert(*grid_.at(VoxelGrid::Cell(5, y, z)));
   }
   const auto route = find_voxel_route(grid_, space(), here_, there_, claimed);
-  ASSERT_TRUE(route) << "above them";
+  ASSERT_TRUE(route) << "the route leads above the claimed cubes";
   Vector3d at = here_;
   for (const Vector3d& corner : *route) {
     grid_.along(at, corner, [&](Id id) {
@@ -61,7 +61,7 @@ TEST_F(VoxelRoute, ClaimedCubesAreNotEntered) {
     at = corner;
   }
   claimed = {*grid_.at(there_)};
-  EXPECT_FALSE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "the goal itself";
+  EXPECT_FALSE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "the goal itself is claimed";
   claimed = {*grid_.at(here_)};
   EXPECT_TRUE(find_voxel_route(grid_, space(), here_, there_, claimed)) << "the UAV is in this cube already";
 }

@@ -215,7 +215,7 @@ TEST(FlightCore, APhotographerThatAssumedSpaceToBeFreeFliesToTheSpaceThatItIsTol
       }
     };
     fly(40.0);
-    EXPECT_LT((uav.state.p_WB - Vector3d(0.0, 0.0, 4.0)).norm(), 1.3) << "seed " << seed << ": it is told nothing";
+    EXPECT_LT((uav.state.p_WB - Vector3d(0.0, 0.0, 4.0)).norm(), 1.3) << "seed " << seed << ": it has received no map";
     fly(5.0 + random.uniform(0.5, 3.0));
     ASSERT_GT((uav.state.p_WB - told_W).norm(), 15.0) << "seed " << seed;
     uav.clear(told_W - Vector3d::Constant(10.0), told_W + Vector3d::Constant(10.0));

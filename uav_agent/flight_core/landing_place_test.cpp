@@ -32,7 +32,7 @@ TEST(LandingPlace, IsTheStartOfAUavThatStartsAlone) {
 
 /// Draws grids of up to 12 starts with offsets, as scenarios have them. All landing places are apart, and none is
 /// farther from its start than necessary.
-TEST(LandingPlace, OfUavsThatStartCloseToEachOtherAreApart) {
+TEST(LandingPlace, IsApartFromThoseOfUavsThatStartNearby) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     RandomStream random(seed, "landing_place", 0);
     const double apart_m = random.uniform(1.5, 4.0), spacing_m = random.uniform(1.0, 2.0);

@@ -61,7 +61,7 @@ TEST(Recovery, LooksAroundFirst) {
   Recovers explorer, photographer(Role::photographer);
   const auto looks = explorer.recover();
   EXPECT_NEAR(looks.took_s, explorer.config.look_s, 0.2);
-  EXPECT_GE(looks.turns, 4) << "about its own axis";
+  EXPECT_GE(looks.turns, 4) << "it turns about its own axis";
   EXPECT_LT(looks.moved_m, 0.1);
   const auto waits = photographer.recover();
   EXPECT_EQ(waits.turns, 0) << "it has no LiDAR";

@@ -47,8 +47,9 @@ struct PerfectUav {
     EXPECT_LE(now.v_WB.norm(), 6.0 + 1e-9);
     EXPECT_LE(now.a_WB.norm(), 2.8 + 1e-9);
     EXPECT_GE(now.a_WB.z(), -kSinkMps2 - 1e-9);
-    EXPECT_LE((now.a_WB - before.a_WB).norm(), 2.0 * 2.8 * kDtS / kSmoothingS + 1e-9) << "jerk";
-    EXPECT_NEAR((before.v_WB + now.a_WB * kDtS - now.v_WB).norm(), 0.0, 0.06) << "acceleration belongs to velocity";
+    EXPECT_LE((now.a_WB - before.a_WB).norm(), 2.0 * 2.8 * kDtS / kSmoothingS + 1e-9) << "the jerk is limited";
+    EXPECT_NEAR((before.v_WB + now.a_WB * kDtS - now.v_WB).norm(), 0.0, 0.06)
+        << "the acceleration is the change of velocity";
     EXPECT_NEAR((before.p_WB + 0.5 * (before.v_WB + now.v_WB) * kDtS - now.p_WB).norm(), 0.0, 0.02);
     last = now;
     state.p_WB = now.p_WB;
@@ -230,7 +231,7 @@ TEST(Tracker, YawTurnsAtALimitedRateTheShortWay) {
   for (int i = 0; i < 40; ++i) {
     const double now = uav.step().yaw;
     EXPECT_LE(std::abs(std::remainder(now - before, 2.0 * M_PI)), 0.8 * kDtS + 1e-9);
-    EXPECT_GT(std::abs(now), 2.9) << "through the back, not through zero";
+    EXPECT_GT(std::abs(now), 2.9) << "it turns through the back, not through zero";
     before = now;
   }
   EXPECT_NEAR(before, -3.0, 1e-9);

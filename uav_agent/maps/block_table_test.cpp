@@ -62,11 +62,11 @@ TEST(BlockTable, TablesWithTheSameContentAreEqualInAnyOrder) {
     for (auto it = all.rbegin(); it != all.rend(); ++it) back[it->first] = it->second;
     EXPECT_TRUE(forth == back);
     ++back[all.begin()->first];
-    EXPECT_FALSE(forth == back) << "another block";
+    EXPECT_FALSE(forth == back) << "one block differs";
     --back[all.begin()->first];
     EXPECT_TRUE(forth == back);
     back[drawn_key(random, 20) | std::uint64_t{1} << 62] = 0;
-    EXPECT_FALSE(forth == back) << "a block more";
+    EXPECT_FALSE(forth == back) << "one table has a block more";
   }
 }
 

@@ -104,7 +104,7 @@ TEST(MapExchange, AUavThatAgreesSendsNoChunks) {
   for (int i = 0; i < 60; ++i) fleet.round();
   fleet.take_bytes();
   fleet.round();
-  EXPECT_EQ(fleet.take_bytes(), 3 * (4 + 2 * fleet[0].grid.chunks() + 1)) << "hashes alone";
+  EXPECT_EQ(fleet.take_bytes(), 3 * (4 + 2 * fleet[0].grid.chunks() + 1)) << "they send hashes alone";
 }
 
 /// Also for the finest grid of the largest site. The rest of a payload is for the planner's other messages.

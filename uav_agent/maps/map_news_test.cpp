@@ -89,7 +89,7 @@ TEST(MapNews, ARestartedUavReceivesAgainWhatItKnew) {
 
 /// UAV 2 knows the map of UAV 0, and would leave it to UAV 0 to send it to UAV 1. But UAV 0 was restarted before UAV 1
 /// hears it, and has lost the map.
-TEST(MapNews, NoUavLeavesNewsToASenderThatHasLostThem) {
+TEST(MapNews, NoUavLeavesNewsToASenderThatHasLostIt) {
   NewsRadio::Config config;
   config.uavs = 3;
   config.news.bytes_per_s = 2'000.0;
@@ -168,7 +168,7 @@ TEST(MapNews, NewsOfUnknownSpaceComesBeforeNewsOfPartlyKnownSpace) {
   EXPECT_FALSE(radio.knows_all_of(0, 1)) << "the test has a backlog";
 }
 
-TEST(MapNews, NewsAreSentOnceAndPassedOnOnlyToUavsThatDoNotHearTheSender) {
+TEST(MapNews, NewsIsSentOnceAndPassedOnOnlyToUavsThatDoNotHearTheSender) {
   for (const bool row : {false, true}) {
     NewsRadio::Config config;
     config.uavs = 4;
@@ -183,7 +183,7 @@ TEST(MapNews, NewsAreSentOnceAndPassedOnOnlyToUavsThatDoNotHearTheSender) {
     ASSERT_LT(exchanges, 400);
     const double receipts = 160.0 * 5.0 * kTickS * test::kNewsExchange * exchanges;
     const double news = static_cast<double>(radio[0].bytes_sent() - before[0]);
-    EXPECT_GT(news, 8.0 * receipts) << "the test has something to tell";
+    EXPECT_GT(news, 8.0 * receipts) << "the test has something to send";
     for (std::size_t uav = 1; uav < 4; ++uav) {
       const double sent = static_cast<double>(radio[uav].bytes_sent() - before[uav]);
       EXPECT_EQ(sent > receipts, row && uav < 3) << row << " " << uav << ": " << sent;
@@ -322,7 +322,7 @@ TEST(MapNews, UavsOfALargeFleetShareTheirMaps) {
   }
   radio.restart(260);
   for (int i = 0; i < 400; ++i) radio.exchange();
-  EXPECT_TRUE(radio.knows_all_of(260, 299)) << "after its restart";
+  EXPECT_TRUE(radio.knows_all_of(260, 299)) << "it receives the map again after its restart";
 }
 
 TEST(MapNews, AUavHearsTheFirst127UavsThatItMeets) {

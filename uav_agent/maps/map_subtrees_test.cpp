@@ -139,7 +139,7 @@ TEST(MapSubtrees, UniformSpaceIsOneLeafOfUpToFourChunks) {
     for (int i = 0; i < edge * edge * edge; ++i) chunks[{i % edge, i / edge % edge, i / (edge * edge)}] = all;
     return tree_of(chunks).size();
   };
-  EXPECT_EQ(fill(1, Space::free), 2U * 13U) << "the nodes above it";
+  EXPECT_EQ(fill(1, Space::free), 2U * 13U) << "the nodes above the leaf";
   EXPECT_EQ(fill(2, Space::free), 2U * 12U);
   EXPECT_EQ(fill(4, Space::free), 2U * 11U);
   EXPECT_EQ(fill(8, Space::free), 2U * 11U) << "readers need not expect larger leaves";
@@ -155,19 +155,19 @@ TEST(MapSubtrees, TreesThatAreTooLargeOrTooDeepAreRefused) {
   EXPECT_FALSE(read_subtrees(all_occupied, 3));
   std::vector<std::uint8_t> many(2, 0xFF);  // only inner nodes, no leaves
   for (int i = 0; i < 1 << 13; ++i) many.insert(many.end(), {0xFF, 0xFF});
-  EXPECT_FALSE(read_subtrees(many, 3)) << "without an end";
+  EXPECT_FALSE(read_subtrees(many, 3)) << "the tree does not end";
   const auto free_below = [](int depth) {  // eight leaves below a chain of nodes with one child each
     std::vector<std::uint8_t> bytes;
     for (int i = 1; i < depth; ++i) bytes.insert(bytes.end(), {0x03, 0x00});
     bytes.insert(bytes.end(), {0x55, 0x55});
     return bytes;
   };
-  EXPECT_FALSE(read_subtrees(free_below(10), 3)) << "leaves of 32 m";
+  EXPECT_FALSE(read_subtrees(free_below(10), 3)) << "leaves of 32 m are too large";
   const auto regions = read_subtrees(free_below(11), 3);
   ASSERT_TRUE(regions.has_value());
   EXPECT_EQ(regions->size(), 8U * 512U);
   EXPECT_EQ(regions->front(), (HeardCube{Eigen::Vector3i::Constant(-8192), 2, Space::free}));
-  EXPECT_FALSE(read_subtrees(free_below(17), 3)) << "deeper than trees are";
+  EXPECT_FALSE(read_subtrees(free_below(17), 3)) << "deeper than trees may be";
 }
 
 TEST(MapSubtrees, DamagedTreesAreRefusedOrWithinBounds) {

@@ -119,9 +119,9 @@ TEST(OccupancyMap, RaysMarkFreeSpaceUpToWhatTheyHit) {
   map.insert(wall, Vector3d(0.0, 0.0, 10.0));
   EXPECT_TRUE(map.known_free({4.0, 0.0, 10.0}));
   EXPECT_TRUE(map.known_free({8.0, 3.0, 12.0}));
-  EXPECT_FALSE(map.known_free({12.0, 0.0, 10.0})) << "the wall";
+  EXPECT_FALSE(map.known_free({12.0, 0.0, 10.0})) << "there is the wall";
   EXPECT_FALSE(map.known_free({16.0, 0.0, 10.0})) << "behind the wall";
-  EXPECT_FALSE(map.known_free({4.0, 15.0, 10.0})) << "beside all rays";
+  EXPECT_FALSE(map.known_free({4.0, 15.0, 10.0})) << "no ray passed there";
 }
 
 TEST(OccupancyMap, TheGroundEndsRaysButIsNoObstacle) {

@@ -14,7 +14,7 @@ Isometry3d pose(const Vector3d& p_W, double about_x, double about_z = 0.0) {
          Eigen::AngleAxisd(about_x, Vector3d::UnitX());
 }
 
-TEST(RepeatedScans, ScansOfAHoveringUavAreRepeated) {
+TEST(RepeatedScans, ScansOfAHoveringUavCountOnce) {
   RepeatedScans scans(kWidthM);
   RandomStream random(1, "hover", 0);
   for (int round = 0; round < 5; ++round) {

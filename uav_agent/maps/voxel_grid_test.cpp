@@ -103,7 +103,7 @@ TEST(VoxelGrid, KnowledgeOnlyGrows) {
   VoxelGrid grid = turned_grid();
   EXPECT_TRUE(grid.raise(3, VoxelState::free));
   EXPECT_TRUE(grid.mark(3, 5));
-  EXPECT_FALSE(grid.mark(3, 5)) << "known already";
+  EXPECT_FALSE(grid.mark(3, 5)) << "the mark is known already";
   EXPECT_TRUE(grid.raise(3, VoxelState::occupied));
   EXPECT_FALSE(grid.raise(3, VoxelState::free));
   EXPECT_EQ(grid.state(3), VoxelState::occupied);
@@ -197,7 +197,7 @@ TEST(VoxelGrid, MergingIsTheSameInAnyOrderAndTwice) {
   EXPECT_TRUE(same(ab, ba));
   const std::uint64_t revision = ab.revision();
   merge(ab, b);
-  EXPECT_EQ(ab.revision(), revision) << "nothing new";
+  EXPECT_EQ(ab.revision(), revision) << "merging the same map again changes nothing";
 }
 
 TEST(VoxelGrid, RandomBytesLeaveStatesValidAndACutChunkIsRefused) {

@@ -79,7 +79,7 @@ TEST_P(Scattered, AStarFindsTheShortestWays) {
     EXPECT_NEAR(length_of(grid, 0, *path), distances[to], 1e-9);
     for (const Id id : *path) EXPECT_TRUE(free(id));
   }
-  EXPECT_TRUE(reached > 0 || GetParam() % 6 > 2) << "an almost empty grid";
+  EXPECT_TRUE(reached > 0 || GetParam() % 6 > 2) << "in an almost empty grid, cubes can be reached";
 }
 
 TEST_P(Scattered, CubesInReachAreThoseWithAWay) {

@@ -362,7 +362,7 @@ TEST(WorldMap, TellsWhereSomethingChanged) {
   EXPECT_EQ(map.regions(), (std::vector<Eigen::Vector3i>{{0, 0, 0}, {-1, 0, 0}}));
   const std::uint64_t last = map.region_changed_at({-1, 0, 0});
   map.hear({-3, 0, 0}, 2, Space::free, 1);
-  EXPECT_EQ(map.region_changed_at({-1, 0, 0}), last) << "nothing new";
+  EXPECT_EQ(map.region_changed_at({-1, 0, 0}), last) << "the same message again changes nothing";
   EXPECT_EQ(map.regions().size(), 2U);
 }
 

@@ -16,8 +16,8 @@ TEST(WorldMapWay, IsClearUpToTheFirstCubeThatIsOccupied) {
   map.insert({}, std::vector{Eigen::Vector3f(7.3F, 0.3F, 0.2F)});
   EXPECT_NEAR(map.clear_way_m({0.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 6.75, 0.25);
   EXPECT_EQ(map.clear_way_m({0.25, 0.25, 0.25}, Vector3d::UnitX(), 5.0), 5.0);
-  EXPECT_EQ(map.clear_way_m({0.25, 0.75, 0.25}, Vector3d::UnitX(), 20.0), 20.0) << "beside it";
-  EXPECT_EQ(map.clear_way_m({7.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 0.0) << "inside";
+  EXPECT_EQ(map.clear_way_m({0.25, 0.75, 0.25}, Vector3d::UnitX(), 20.0), 20.0) << "the way passes beside the cube";
+  EXPECT_EQ(map.clear_way_m({7.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 0.0) << "the way begins inside the cube";
 }
 
 /// clear_way_m() passes over chunks without structure; its result must be that of a check of each sample, to the bit.

@@ -138,7 +138,7 @@ TEST_F(BeamReaderTest, OdometryOrServoThatDoNotFitLeaveTheWholeScanUnknown) {
   EXPECT_EQ(reader(config).read(scan, {}).doubt, ScanDoubt::none);
 }
 
-TEST_F(BeamReaderTest, OnePointThatDoesNotFitTheLidarIsEnough) {
+TEST_F(BeamReaderTest, OnePointThatDoesNotFitLeavesTheWholeScanUnknown) {
   const Scan scan = drawn({}, 4);
   const Isometry3d X_WL = lidar_pose(state_.X_WB(), servo_.angle);
   const auto doubt_with = [&](auto&& change) {

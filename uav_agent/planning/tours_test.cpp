@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, SmallTours,
                                          TourKind{"open_directed", 0.8, false}, TourKind{"closed_directed", 0.8, true}),
                          [](const auto& kind) { return kind.param.name; });
 
-TEST(Tours, ImprovementNeverMakesWorseAndStopsWhenItsEffortIsSpent) {
+TEST(Tours, ImprovementNeverMakesATourWorseHoweverMuchEffortItHas) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const CostMatrix costs = random_costs(60, seed, seed % 2 == 0 ? 0.0 : 0.5);
     Tour tour = nearest_neighbour_tour(costs);

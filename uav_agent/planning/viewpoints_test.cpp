@@ -110,7 +110,7 @@ TEST(Viewpoints, ClustersAreNearAndSeeTheirFirst) {
   std::set<std::size_t> all;
   for (const auto& cluster : clusters) {
     for (const std::size_t i : cluster) {
-      EXPECT_TRUE(all.insert(i).second) << "in one cluster only";
+      EXPECT_TRUE(all.insert(i).second) << "each place is in one cluster only";
       EXPECT_LE((places[i] - places[cluster[0]]).norm(), 5.0);
       EXPECT_TRUE(grid.sees(places[cluster[0]], places[i]));
     }

@@ -44,14 +44,14 @@ TEST(FlockCamera, LittleEvidenceIsNotHeldAgainstIt) {
     Tick now = 0;
     std::size_t next = 0;
     show_new_points(camera, 100, 400, camera_place(random), now, next);
-    EXPECT_FALSE(camera.failed()) << "one place";
+    EXPECT_FALSE(camera.failed()) << "one place proves nothing";
     camera.hear(true, now);
     const std::vector<std::size_t> few = {1, 2, 3, 4, 5};
     for (int i = 0; i < 400; ++i) camera.expect(few, camera_place(random), now += kCameraLook);
-    EXPECT_FALSE(camera.failed()) << "few points";
+    EXPECT_FALSE(camera.failed()) << "few points prove nothing";
     camera.hear(true, now);
     for (int i = 0; i < 200; ++i) show_new_points(camera, 10, 2, camera_place(random), now, next);
-    EXPECT_FALSE(camera.failed()) << "in view for a moment";
+    EXPECT_FALSE(camera.failed()) << "points in view for a moment prove nothing";
     camera.hear(true, now);
     for (int i = 0; i < 100; ++i) {
       show_new_points(camera, 3, 10, camera_place(random), now, next);

@@ -55,7 +55,7 @@ TEST(Hand, ObeysCommandsAndComesToRest) {
   world.run(17.0);
   const Vector3d top = world.position(0);
   EXPECT_NEAR(top.z(), 9.0, 3.0);
-  EXPECT_LT((top.head<2>() - Vector2d(-8.0, -14.0)).norm(), 0.1) << "straight up";
+  EXPECT_LT((top.head<2>() - Vector2d(-8.0, -14.0)).norm(), 0.1) << "it climbs straight up";
   world.run(17.0);
   const Vector3d ahead = world.position(0);
   EXPECT_GT(ahead.x() - top.x(), 12.0) << "14 s at up to 2 m/s, as its LiDAR proves the way";
@@ -80,7 +80,7 @@ TEST(Hand, AheadIsWhereItLooks) {
   world.run(22.0);
   const Vector3d before = world.position(0);
   world.run(9.0);
-  EXPECT_LT(world.position(0).y() - before.y(), -3.0) << "a quarter to the right of x";
+  EXPECT_LT(world.position(0).y() - before.y(), -3.0) << "ahead is a quarter turn to the right of x";
   EXPECT_NEAR(world.position(0).x(), before.x(), 0.5);
 }
 

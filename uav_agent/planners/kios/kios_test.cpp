@@ -37,7 +37,8 @@ TEST(KiosLanes, RunStraightAlongTheLongestAxisOnOppositeSides) {
   const auto second = mapping_lanes(agent_of(1, 2, 1), long_volume(), {kMiddleBox}, 0.0, 2);
   ASSERT_EQ(first.size(), 2U);
   ASSERT_EQ(second.size(), 2U);
-  EXPECT_EQ((first[1] - first[0]).cwiseAbs(), Vector3d(20.0, 0.0, 0.0)) << "along the box, but for its ends";
+  EXPECT_EQ((first[1] - first[0]).cwiseAbs(), Vector3d(20.0, 0.0, 0.0))
+      << "the lane runs along the box, without its ends";
   EXPECT_EQ((second[1] - second[0]).cwiseAbs(), Vector3d(20.0, 0.0, 0.0));
   EXPECT_DOUBLE_EQ(std::abs(first[0].y() - second[0].y()), 15.0);
   const auto photographer = mapping_lanes(agent_of(2, 2, 1), long_volume(), {kMiddleBox}, 0.0, 2);
@@ -224,14 +225,14 @@ TEST(Kios, PhotographsTheStructureAndDeliversThePictures) {
   EXPECT_GT(world.coverage(), 0.7);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
   EXPECT_GT(world.gap(), 0.3);
-  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+  EXPECT_LE(world.undelivered(), 6U) << "only captures of the last seconds are left";
 }
 
 TEST(Kios, PhotographersWaitUntilTheExplorersHaveFlownTheirLanes) {
   TestWorld world(two_towers(), test_fleet(3), "kios", 120.0);
   world.run(30.0);
   const Vector3d waits = world.position(1);
-  EXPECT_LT((waits.head<2>() - Vector2d(-5.0, -14.0)).norm(), 0.5) << "above its start";
+  EXPECT_LT((waits.head<2>() - Vector2d(-5.0, -14.0)).norm(), 0.5) << "it waits above its start";
   EXPECT_GT(waits.z(), 3.0);
   world.run(60.0);
   EXPECT_GT((world.position(1) - waits).norm(), 3.0);
@@ -243,7 +244,7 @@ TEST(Kios, PhotographersWaitNoLongerThanTheyAreAskedTo) {
   TestWorld hasty(two_towers(), test_fleet(3), "kios:map_mps=0.5,wait_s=5", 120.0);
   patient.run(35.0);
   hasty.run(35.0);
-  EXPECT_LT((patient.position(1).head<2>() - Vector2d(-5.0, -14.0)).norm(), 0.5) << "above its start";
+  EXPECT_LT((patient.position(1).head<2>() - Vector2d(-5.0, -14.0)).norm(), 0.5) << "it waits above its start";
   EXPECT_GT((hasty.position(1) - patient.position(1)).norm(), 3.0);
 }
 

@@ -50,7 +50,7 @@ TEST(KiosStops, EveryExposedFaceHasAStopThatLooksAtIt) {
   ASSERT_EQ(open.stops.size(), 6U);
   for (const KiosStop& stop : open.stops) {
     EXPECT_EQ(stop.id / VoxelGrid::kFaces, world.cube);
-    EXPECT_NEAR((stop.p_WB - stop.surface_W).dot(stop.out_W), 5.0, 0.5) << "the middle of the next cube";
+    EXPECT_NEAR((stop.p_WB - stop.surface_W).dot(stop.out_W), 5.0, 0.5) << "the stop is in the middle of the next cube";
   }
 }
 
@@ -62,7 +62,7 @@ TEST(KiosStops, PhotographedCoveredAndFailedFacesAreNotOpen) {
   world.boxes = {make_box({12.5, 12.5, 12.5}, {4.0, 5.0, 5.0})};  // without the neighbour
   stops.failed(VoxelGrid::kFaces * world.cube + 4, 0);
   EXPECT_EQ(world.open(stops).stops.size(), 3U);
-  EXPECT_EQ(world.open(stops, ticks(60.0)).stops.size(), 4U) << "is tried again";
+  EXPECT_EQ(world.open(stops, ticks(60.0)).stops.size(), 4U) << "the failed face is tried again";
 }
 
 TEST(KiosStops, ACubeWithFewMappedCellsIsNotOpen) {

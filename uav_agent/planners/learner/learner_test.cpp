@@ -212,7 +212,7 @@ TEST_F(LearnerObservation, HoldsTheInputsOfItsUav) {
     EXPECT_EQ(block().at<double>("time_left_s"), in.mission_remaining_s.value_or(uav_.agent.duration_s));
     EXPECT_EQ(block().at<std::int64_t>("undelivered"), static_cast<std::int64_t>(uav_.undelivered));
     EXPECT_EQ(block().at<std::int8_t>("linked"), uav_.linked ? 1 : 0);
-    EXPECT_EQ(block().at<double>("scan_age_s"), -1.0) << "never";
+    EXPECT_EQ(block().at<double>("scan_age_s"), -1.0) << "there was no scan yet";
     for (std::size_t row = 0; row < 3; ++row) {
       const Peer& peer = uav_.peers.all()[row];
       EXPECT_EQ(block().vector("peers", row), peer.p_W);

@@ -14,7 +14,7 @@ TEST(Patrol, PhotographsTheStructureAndDeliversThePictures) {
   EXPECT_GT(world.coverage(), 0.9);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
   EXPECT_GT(world.gap(), 0.3);
-  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+  EXPECT_LE(world.undelivered(), 6U) << "only captures of the last seconds are left";
 }
 
 TEST(Patrol, IsRepeatable) {
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, PatrolFleets, testing::Values(1U, 2U, 5U, 8U));
 TEST(Patrol, PhotographsWithoutAnyLidar) {
   TestWorld world(two_towers(), {{"eye", Role::photographer, {-8.0, -14.0}}}, "patrol", 200.0);
   world.run(200.0);
-  EXPECT_GT(world.coverage(), 0.2) << "from in front of the boxes";
+  EXPECT_GT(world.coverage(), 0.2) << "it photographs from in front of the boxes";
   EXPECT_GT(world.clearance(), kPhotographerRadiusM + 0.5);
 }
 
@@ -93,7 +93,7 @@ TEST(Patrol, FindsTheStructureInABoxThatHoldsEverything) {
   EXPECT_GT(world.coverage(), 0.6);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
   EXPECT_GT(world.gap(), 0.3);
-  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+  EXPECT_LE(world.undelivered(), 6U) << "only captures of the last seconds are left";
 }
 
 /// A tower with a thin wall (the screen) in front of it, outside the tower's box. The wall stands where a UAV would fly

@@ -81,7 +81,7 @@ TEST(StarFlight, GoesOnThroughItsViewpointsWithoutAStop) {
     }
     EXPECT_GT(lists, 20) << "seed " << seed;
     EXPECT_GT(flown_m, 50.0) << "seed " << seed;
-    EXPECT_LT(resting, 80) << "seed " << seed << ": exchanges, of 800";
+    EXPECT_LT(resting, 80) << "seed " << seed << ": number of exchanges at rest, of 800";
   }
 }
 
@@ -196,7 +196,7 @@ TEST(Star, PhotographsTheStructureAndDeliversThePictures) {
   EXPECT_GT(world.coverage(), 0.5);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.4);
   EXPECT_GT(world.gap(), 0.3);
-  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+  EXPECT_LE(world.undelivered(), 6U) << "only captures of the last seconds are left";
 }
 
 TEST(Star, PhotographersBeginWhileTheExplorerExplores) {

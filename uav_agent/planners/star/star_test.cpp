@@ -32,7 +32,7 @@ TEST(StarCamera, TurnsDuringTheWholeFlightAndLooksAtTheSurfaceOnArrival) {
     PlannerOutput out;
     camera.sweep(state, gimbal, view, surface, out);
     ASSERT_TRUE(out.yaw);
-    EXPECT_GT(*out.yaw, last) << "never rests";
+    EXPECT_GT(*out.yaw, last) << "the camera never rests";
     last = *out.yaw;
     const auto* command = std::get_if<GimbalCommand>(&out.gimbal);
     ASSERT_NE(command, nullptr);
@@ -76,7 +76,7 @@ TEST(StarWay, FollowsThePlacesUpToTheHorizon) {
     EXPECT_DOUBLE_EQ(waypoint.speed_mps, 2.0);
   }
   EXPECT_GT(length, 12.0);
-  EXPECT_LT(length, 20.0 + 9.0) << "the horizon, and one leg";
+  EXPECT_LT(length, 20.0 + 9.0) << "the way ends at most one leg beyond the horizon";
 }
 
 /// Places are random, and some are too low to be free. Every leg of the path must be in free space, and the path must
@@ -150,10 +150,10 @@ TEST(StarSurfaces, ViewpointsStandOffTheSurfaceAndCoverAllOfIt) {
     EXPECT_LT((view.p_WB - view.surface_W).norm(), 7.36);
     for (const std::uint32_t face : view.faces) {
       if (face % VoxelGrid::kFaces != 0) continue;
-      EXPECT_TRUE(front.insert(face).second) << "in one patch only";
+      EXPECT_TRUE(front.insert(face).second) << "each face is in one patch only";
     }
   }
-  EXPECT_EQ(front.size(), wall.open_faces(0)) << "every face towards +x";
+  EXPECT_EQ(front.size(), wall.open_faces(0)) << "every face towards +x has a viewpoint";
 }
 
 TEST(StarSurfaces, FacesInThePictureCountAsInspected) {
@@ -272,7 +272,8 @@ TEST(StarExplorer, GoalsAreAtTheFrontierInTheBox) {
     EXPECT_NEAR(goal.middle_W.x(), -1.0, 0.1) << "on the rim of what is known";
     EXPECT_TRUE(explorer.open(goal));
   }
-  EXPECT_TRUE(explorer.tour(grid, space, make_box({-15, 0, 12}, {4, 4, 4}), start, 0).empty()) << "nothing open there";
+  EXPECT_TRUE(explorer.tour(grid, space, make_box({-15, 0, 12}, {4, 4, 4}), start, 0).empty())
+      << "no frontier is open there";
   for (const StarGoal& goal : goals) explorer.failed(goal, 0);
   EXPECT_LT(explorer.tour(grid, space, box, start, 1).size(), goals.size());
   for (VoxelGrid::Id id = 0; id < grid.count(); ++id) grid.raise(id, VoxelState::free);

@@ -193,7 +193,8 @@ TEST(XxhPost, MembersWaitApart) {
     const auto posts = uav.post.beside({30.0, 0.0, 5.0}, {40.0, 0.0, 5.0}, rank, 20.0);
     ASSERT_FALSE(posts.empty());
     for (const Vector3d& post : posts) {
-      EXPECT_NEAR(post.x(), 30.0 - 4.0 * static_cast<double>(rank + 1), 1e-9) << "away from the region";
+      EXPECT_NEAR(post.x(), 30.0 - 4.0 * static_cast<double>(rank + 1), 1e-9)
+          << "members wait on the side away from the region";
       EXPECT_GE(post.z(), 4.0);
     }
   }

@@ -57,7 +57,7 @@ TEST(XxhRegion, TheSpiralGoesAroundTheBoxAtADistance) {
     EXPECT_TRUE(kBox.contains(p, 4.1));
     heights.insert(std::round(p.z()));
   }
-  EXPECT_EQ(heights.size(), 2U) << "turns over 12 layers";
+  EXPECT_EQ(heights.size(), 2U) << "two turns cover 12 layers";
   const double nearest = (places.front() - from).head<2>().norm();
   for (const Vector3d& p : places) EXPECT_LE(nearest, (p - from).head<2>().norm() + 1e-9);
   EXPECT_LT(region.spiral(region.section(0, 1, 1.0), from, true).size(), places.size());
@@ -129,7 +129,7 @@ TEST(XxhRegion, TheSpiralVisitsAllCellsOfALayerOnceAround) {
       ++done[next.front().cell];
     }
     EXPECT_EQ(visited, all) << "seed " << seed;
-    EXPECT_LT(turned - backwards, 2.5 * std::numbers::pi) << "seed " << seed << ": once";
+    EXPECT_LT(turned - backwards, 2.5 * std::numbers::pi) << "seed " << seed << ": the visits lead around once";
     EXPECT_LT(backwards, turned) << "seed " << seed;
   }
 }
@@ -281,7 +281,7 @@ TEST_P(XxhInspectorLayers, AreVisitedThreeTimesIfTargetsAreNotReached) {
   ASSERT_FALSE(tried.empty());
   for (const auto& [layer, times] : tried) {
     EXPECT_EQ(layer % GetParam(), GetParam() / 2);
-    EXPECT_EQ(times % 3, 0) << "in three passes";
+    EXPECT_EQ(times % 3, 0) << "each cell is tried in three passes";
   }
 }
 

@@ -32,8 +32,8 @@ TEST(XxhTalk, WordsAreReadAsTheyWereWritten) {
   }
 }
 
-/// The first and the last UAV of a fleet announce where they will fly. @returns of how many of both another UAV keeps
-/// clear.
+/// The first and the last UAV of a fleet announce where they will fly. @returns of how many of these two the UAV `self`
+/// keeps clear.
 std::size_t keeps_clear_of(std::size_t self, double after_s, bool forever) {
   AgentConfig agent;
   agent.self = UavIndex(self);
@@ -67,7 +67,7 @@ TEST(Xxh, PhotographsTheStructureAndDeliversThePictures) {
   EXPECT_GT(world.coverage(), 0.4);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.5);
   EXPECT_GT(world.gap(), 0.3);
-  EXPECT_LE(world.undelivered(), 6U) << "only those of the last seconds";
+  EXPECT_LE(world.undelivered(), 6U) << "only captures of the last seconds are left";
 }
 
 TEST(Xxh, PhotographersWaitUntilTheirSectionIsExplored) {
