@@ -1,4 +1,4 @@
-// Commands arrive once an exchange. With every period of the exchange, a UAV obeys a command until the next one is due,
+// Commands arrive once per exchange. Whatever the exchange's period, a UAV obeys a command until the next one is due,
 // and no longer.
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ class Paced {
     }
     simulation_ = std::make_unique<Simulation>(scenario_, Scene{}, 0);
   }
-  /// @param pilot  (uav, t) to a command, asked once an exchange.   @param watch  looks on at its end.
+  /// @param pilot  returns the command of (uav, t), called once per exchange.   @param watch  called at its end.
   template <class Pilot, class Watch>
   void fly(double duration_s, const Pilot& pilot, const Watch& watch) {
     const Tick end = simulation_->tick() + ticks(duration_s);
@@ -54,7 +54,7 @@ class Paced {
 };
 
 TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
-  // Up, then 24 m ahead by its position alone, as patrol's way-points are.
+  // Climbs, then flies 24 m ahead by commands that have only a position, as patrol's way-points do.
   for (const Tick period : periods()) {
     Paced fleet(period);
     const auto lane = [](UavIndex uav) { return 10.0 * static_cast<double>(uav); };
@@ -112,7 +112,8 @@ TEST(ExchangePeriod, AGimbalTurnsFromRateCommandToRateCommand) {
     for (int i = 0; i * period < ticks(2.0); ++i) simulation.advance();
     const double yaw = simulation.uav(UavIndex{0}).gimbal.yaw;
     simulation.advance();
-    EXPECT_EQ(simulation.uav(UavIndex{0}).gimbal.yaw, yaw) << "without another it stops, " << seconds(period) << " s";
+    EXPECT_EQ(simulation.uav(UavIndex{0}).gimbal.yaw, yaw)
+        << "without another command it stops, " << seconds(period) << " s";
   }
 }
 

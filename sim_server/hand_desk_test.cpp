@@ -28,15 +28,15 @@ class HandDeskTest : public testing::Test {
   HandDesk::Clock::time_point now_{std::chrono::hours(1)};
 };
 
-TEST_F(HandDeskTest, TellsOfEachChangeOnce) {
-  EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt) << "nobody wants anything yet";
+TEST_F(HandDeskTest, ReportsEachChangeOnce) {
+  EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt) << "nobody has sent a command yet";
   desk_.take(ahead("ann", 1.0), now_);
   desk_.take(ahead("ann", 2.0), now_);
   desk_.take(ahead("cid", 3.0), now_);
   EXPECT_EQ(desk_.news(kFirst, now_), ahead("", 2.0).command) << "the newest counts";
   EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt);
   desk_.take(ahead("ann", 2.0), now_);
-  EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt) << "renewed is not changed";
+  EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt) << "a renewed command is no change";
   EXPECT_EQ(desk_.news(kThird, now_), ahead("", 3.0).command);
 }
 
@@ -63,7 +63,7 @@ TEST_F(HandDeskTest, ACommandThatEndedBeforeTheNextStepNeverActs) {
   EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt);
 }
 
-TEST_F(HandDeskTest, OrdersForOthersGoNowhere) {
+TEST_F(HandDeskTest, OrdersForUavsThatAreNotFlownByHandAreIgnored) {
   for (const char* uav : {"bob", "dan", ""}) desk_.take(ahead(uav, 1.0), now_);
   for (const UavIndex uav : {kFirst, kSecond, kThird}) EXPECT_EQ(desk_.news(uav, now_), std::nullopt);
 }

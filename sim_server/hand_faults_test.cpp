@@ -50,7 +50,7 @@ class FaultsByHand : public testing::Test {
   const std::filesystem::path file_;
 };
 
-/// Any that a page can ask for.
+/// Any fault that the viewer's page can request.
 view::FaultOrder drawn(std::mt19937_64& random) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const std::vector<std::string> uavs = {"jurong", "changi", "raffles"};
@@ -72,7 +72,7 @@ view::FaultOrder drawn(std::mt19937_64& random) {
   return order;
 }
 
-TEST_F(FaultsByHand, TheirFileHasTheSameInTheSameExchanges) {
+TEST_F(FaultsByHand, TheirFileHasTheSameFaultsInTheSameExchanges) {
   std::size_t done = 0, refused = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     std::mt19937_64 random(seed);
@@ -128,9 +128,10 @@ TEST_F(FaultsByHand, AnInvalidFaultIsRefusedWithAReason) {
   expect_refused(hand, begin(Blackout{"jurong"}), ticks(80.0), "after the end");
   expect_refused(hand, end(0), next, "no such fault");
 
-  EXPECT_EQ(hand.obey(begin(Blackout{"changi"}, 5.0), next), "") << "it is over when the file's begins";
+  EXPECT_EQ(hand.obey(begin(Blackout{"changi"}, 5.0), next), "") << "it ends when the fault of the file begins";
   EXPECT_EQ(hand.obey(begin(Kill{"jurong"}), next), "");
-  EXPECT_EQ(hand.obey(begin(view::no_link("changi", "gcs")), next), "") << "beside the file's own effect on it";
+  EXPECT_EQ(hand.obey(begin(view::no_link("changi", "gcs")), next), "")
+      << "in addition to the file's effect on this link";
   expect_refused(hand, begin(view::no_link("changi", "gcs")), next, "the link changi > gcs has a fault now already");
   EXPECT_EQ(hand.obey(begin(view::no_link("gcs", "changi")), next), "") << "the other direction is another link";
   expect_refused(hand, begin(Pause{"jurong"}), next + 50 * period_, "the process of jurong has a fault now already");
@@ -170,7 +171,7 @@ TEST_F(FaultsByHand, TimesMayGoOnToTheEndOfTheRun) {
   EXPECT_EQ(read.faults.at(0).end(), ticks(78.0));
 }
 
-TEST_F(FaultsByHand, ThereAreNotMoreThanARouterCanBeToldOfInEachStep) {
+TEST_F(FaultsByHand, TheirNumberIsLimitedToWhatAStepCanTellTheRouter) {
   HandFaults hand(scenario_, {});
   Tick next = period_;
   std::size_t taken = 0;

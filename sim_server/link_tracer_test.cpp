@@ -13,7 +13,8 @@
 namespace skein::sim {
 namespace {
 
-/// The tracer keeps the shadowing field of nodes that stand still, and computes it once for all links of the others.
+/// The tracer keeps the shadowing values of nodes that stand still. For any other node, it computes them once for all
+/// links of the node.
 TEST(LinkTracer, GivesEachLinkThePowerThatPathLossGives) {
   constexpr std::uint64_t kSeed = 3;
   Scenario scenario;

@@ -14,7 +14,7 @@ constexpr double kMission_s = 300.0;
 
 BatteryConditions conditions(double endurance) { return {.endurance_missions = endurance}; }
 
-TEST(Battery, LetsItsVehicleHoverAsLongAsItIsSaidTo) {
+TEST(Battery, LetsItsVehicleHoverForItsEndurance) {
   for (const char* name : {"explorer", "photographer"}) {
     for (const double endurance : {0.5, 0.8, 1.5}) {
       const VehicleConfig vehicle = test::vehicle_named(name);
@@ -40,7 +40,7 @@ TEST(Battery, KeepsItsEnergyBalanceUnderAnyLoad) {
     EXPECT_LE(battery.charge(), before);
     EXPECT_NEAR(battery.left_j() + battery.given_j() + battery.heat_j(), full_j, 1e-9 * full_j);
   }
-  EXPECT_NEAR(battery.given_j(), asked_j, 0.002 * asked_j) << "the last draw may have been more than was left";
+  EXPECT_NEAR(battery.given_j(), asked_j, 0.002 * asked_j) << "the last draw may have exceeded the remaining energy";
   EXPECT_NEAR(battery.capacity_wh() * 3600.0, full_j, 1e-6 * full_j);
   EXPECT_GT(battery.heat_j(), 0.0);
 }
@@ -57,12 +57,13 @@ TEST(Battery, SagsUnderLoad) {
   battery.draw(2.0 * hover_power(vehicle, config), 0.01);
   EXPECT_GT((open_v - battery.status().voltage_v) / open_v, 1.8 * sag);
   battery.draw(1e9, 0.01);
-  EXPECT_NEAR(battery.status().voltage_v, 0.5 * open_v, 0.01 * open_v) << "the most that it can give";
+  EXPECT_NEAR(battery.status().voltage_v, 0.5 * open_v, 0.01 * open_v)
+      << "at the greatest power that the battery can give";
   const BatteryStatus status = battery.status();
   EXPECT_NEAR(status.capacity_ah * status.charge, battery.charge() * status.capacity_ah, 1e-12);
 }
 
-TEST(Battery, AnEmptyOneGivesNothing) {
+TEST(Battery, GivesNothingOnceItIsEmpty) {
   Battery battery(conditions(0.01), test::vehicle_named("photographer"), 1.0);
   while (!battery.empty()) battery.draw(100.0, 0.1);
   const double given_j = battery.given_j();
@@ -82,7 +83,7 @@ class BatterySwap : public testing::TestWithParam<std::uint64_t> {
     scenario_.conditions.battery.swap_s = swap_s_;
     scenario_.conditions.battery.swap_within_m = within_m_;
   }
-  /// The UAV stays for some time. @returns after how long it had a full battery [s]; nullopt: it never had.
+  /// The UAV stays for some time. @returns after how long it got a full battery [s]; nullopt if it got none.
   std::optional<double> stay(double off_m, double time_s, bool airborne) {
     const Tick from = tick_;
     std::optional<double> full_s;
@@ -97,7 +98,7 @@ class BatterySwap : public testing::TestWithParam<std::uint64_t> {
   const double swap_s_ = draw_.uniform(2.0, 40.0), within_m_ = draw_.uniform(5.0, 60.0);
   Scenario scenario_;
   std::optional<Surroundings> uav_;
-  double most_charge_ = 1.0;  ///< by a fault that goes on, see BatteryLoss
+  double most_charge_ = 1.0;  ///< limit that an active fault sets, see BatteryLoss
   Tick charge_lost_ = 0;      ///< when this fault began
   Tick tick_ = 0;
 };
@@ -116,14 +117,13 @@ TEST_P(BatterySwap, GivesAUavThatHasLandedNearTheStationAFullBatteryOnce) {
     const auto full_s = stay(within_m_ - 1.0, 3.5 * swap_s_, false);
     ASSERT_TRUE(full_s);
     EXPECT_NEAR(*full_s, swap_s_, 0.06);
-    EXPECT_EQ(uav_->battery_use().swaps, static_cast<std::uint64_t>(flight)) << "once a landing";
+    EXPECT_EQ(uav_->battery_use().swaps, static_cast<std::uint64_t>(flight)) << "one swap for each landing";
     EXPECT_EQ(uav_->battery_use().last_in_flight, most_charge_);
-    EXPECT_EQ(uav_->battery()->charge, 1.0)
-        << "what a fault took from the battery before, it does not take from this one";
+    EXPECT_EQ(uav_->battery()->charge, 1.0) << "the fault drained only the previous battery, not this one";
   }
 }
 
-// Its program may be away, and its controller use the battery on the ground.
+// If the UAV's program is away, the UAV stays on the ground, where its controller uses the battery.
 TEST_P(BatterySwap, ComesAgainToAUavThatStandsThereWithALowBattery) {
   uav_.emplace(scenario_, 1, UavIndex{0});
   stay(0.0, 5.0, true);
@@ -135,8 +135,8 @@ TEST_P(BatterySwap, ComesAgainToAUavThatStandsThereWithALowBattery) {
   }
 }
 
-// The next fault begins when the last one ends, so there is no exchange without a limit between them.
-TEST_P(BatterySwap, EachOfTwoEqualFaultsTakesTheChargeOfTheBatteryThatIsThereOnce) {
+// Each fault begins when the previous one ends, so in every exchange a fault limits the charge.
+TEST_P(BatterySwap, EachOfTwoEqualFaultsDrainsTheBatteryInTheUavOnce) {
   uav_.emplace(scenario_, 1, UavIndex{0});
   stay(0.0, 5.0, true);
   most_charge_ = draw_.uniform(0.1, 0.9);
@@ -144,7 +144,7 @@ TEST_P(BatterySwap, EachOfTwoEqualFaultsTakesTheChargeOfTheBatteryThatIsThereOnc
     charge_lost_ = tick_;
     stay(0.0, 0.5 * swap_s_, true);
     EXPECT_DOUBLE_EQ(uav_->battery()->charge, most_charge_) << "fault " << faults;
-    EXPECT_TRUE(stay(0.0, 1.5 * swap_s_, false)) << "a full battery, of which the fault takes nothing";
+    EXPECT_TRUE(stay(0.0, 1.5 * swap_s_, false)) << "the fault takes nothing from the new battery";
     EXPECT_EQ(uav_->battery()->charge, 1.0);
   }
 }

@@ -57,8 +57,9 @@ TEST(LidarErrors, DarkSurfacesVanishAtTheRangeThatTheirAngleAllows) {
   }
 }
 
-/// measure() mostly compares powers instead of roots: it loses the same returns, also within rounding of the border.
-TEST(LidarErrors, LoseWhatTheFormulaLoses) {
+/// measure() mostly compares powers instead of roots. It must lose the same returns as the formula, also those whose
+/// range is within a rounding error of the limit.
+TEST(LidarErrors, LoseTheReturnsThatTheFormulaLoses) {
   LidarConfig lidar;
   lidar.rings = 4;
   lidar.columns = 90;
@@ -72,7 +73,7 @@ TEST(LidarErrors, LoseWhatTheFormulaLoses) {
     std::vector<double> ranges(static_cast<std::size_t>(lidar.rings * lidar.columns), kNothing);
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       const double kind = draw.uniform();
-      // Near the border, or near the beam before: perpendicular surfaces, slanted ones, edges, and nothing.
+      // Ranges near the limit, or near the previous beam: perpendicular and slanted surfaces, edges, and nothing.
       if (kind < 0.3) ranges[i] = seen_m(1.0) * (1.0 + std::round(draw.uniform(-4.0, 4.0)) * 0x1p-52);
       if (kind > 0.5) ranges[i] = draw.uniform(0.0, 120.0);
       if (kind > 0.7 && i > 0 && std::isfinite(ranges[i - 1])) ranges[i] = ranges[i - 1] * draw.uniform(0.8, 1.25);
@@ -269,8 +270,9 @@ TEST(LidarErrors, NoiseOfBeamsAndOfScansIsNotCorrelated) {
   EXPECT_NEAR(scans / count, 0.0, 5.0 / std::sqrt(count));
 }
 
-/// Drops are drawn by the distance from one to the next: each beam meets one as often, independent of the others.
-TEST(LidarErrors, RainMeetsEachBeamAsOften) {
+/// LidarErrors draws the number of beams from one drop to the next. Nevertheless, all beams must meet drops equally
+/// often, and independently of each other.
+TEST(LidarErrors, RainHitsAllBeamsEquallyOften) {
   const LidarConfig lidar = one_ring();
   const std::vector<double> ranges(static_cast<std::size_t>(lidar.columns), kNothing);
   for (const double p : {0.1, 0.01, 1e-18}) {
@@ -296,7 +298,7 @@ TEST(LidarErrors, RainMeetsEachBeamAsOften) {
   }
 }
 
-TEST(LidarErrors, RainReturnsWhatItsProbabilitySaysAndNothingBehindASurface) {
+TEST(LidarErrors, RainReturnsAsOftenAsItsProbabilitySaysAndNeverBehindASurface) {
   const LidarConfig lidar = one_ring();
   LidarErrors errors({.clutter_p = 0.02, .clutter_mean_m = 4.0}, lidar, 1, UavIndex{0});
   std::vector<double> ranges(static_cast<std::size_t>(lidar.columns), kNothing);

@@ -66,7 +66,7 @@ TEST(OdometryError, TurnsByItsYawBitForBit) {
   expect_turned();
 }
 
-TEST(OdometryError, IsNoneAtAKnownStartAndThenGrowsToItsDeviation) {
+TEST(OdometryError, IsZeroAtAKnownStartAndThenGrowsToItsDeviation) {
   constexpr std::uint64_t kSeeds = 4000;
   const OdometryConditions config{.horizontal_sigma_m = 0.3,
                                   .vertical_sigma_m = 0.6,
@@ -81,9 +81,9 @@ TEST(OdometryError, IsNoneAtAKnownStartAndThenGrowsToItsDeviation) {
       OdometryError error(config, seed, UavIndex{seed % 5});
       const double waits_s = 30.0 * RandomStream(seed, "start_test", 0).uniform();
       for (double t = 0.0; t < waits_s; t += kStep_s) error.step(kStep_s);
-      ASSERT_EQ(error.position_error_m(), Vector3d::Zero()) << "it has not taken off";
+      ASSERT_EQ(error.position_error_m(), Vector3d::Zero()) << "the UAV has not taken off";
       ASSERT_EQ(error.uncertainty().position_m, Vector3d::Zero());
-      ASSERT_NE(error.yaw_error(), 0.0) << "nobody surveys where it looks";
+      ASSERT_NE(error.yaw_error(), 0.0) << "the heading at the start is not known exactly";
       error.leave_start();
       for (double t = 0.0; t < flown_s - kStep_s / 2; t += kStep_s) error.step(kStep_s);
       horizontal2 += std::pow(error.position_error_m().x(), 2);
@@ -99,8 +99,8 @@ TEST(OdometryError, IsNoneAtAKnownStartAndThenGrowsToItsDeviation) {
   }
 }
 
-/// Normalised estimation errors squared, of position, yaw and velocity; each is 1 a degree of freedom if what the
-/// odometry says of its errors is true.
+/// Normalised estimation errors squared, of position, yaw and velocity. Their mean is 1 per degree of freedom if the
+/// odometry states its covariance correctly.
 struct Nees {
   double position = 0.0, yaw = 0.0, velocity = 0.0;
   std::size_t samples = 0, without_fix = 0;
@@ -144,7 +144,7 @@ Nees nees(const OdometryConditions& config, bool only_without_fix = false,
 /// Four deviations of the mean of n sums of squares of `dof` normal numbers.
 double tolerance(double dof, std::size_t n) { return 4.0 * std::sqrt(2.0 * dof / static_cast<double>(n)); }
 
-TEST(OdometryError, ItsCovarianceIsConsistentWithWhatItIsOffBy) {
+TEST(OdometryError, ItsCovarianceIsConsistentWithItsActualErrors) {
   for (const char* preset : {"breezy", "harsh"}) {
     OdometryConditions config = conditions_preset(preset).odometry;
     const Nees all = nees(config);
@@ -207,15 +207,15 @@ TEST(OdometryError, WalksOffWithoutAFixAndJumpsBackWithOne) {
       if (had_fix || !error.has_fix()) continue;
       ++returns;
       jumps += moved.norm();
-      EXPECT_LT(error.position_error_m().norm(), 1.0) << "it is known again";
+      EXPECT_LT(error.position_error_m().norm(), 1.0) << "with a fix the position is known again";
     }
   }
-  EXPECT_NEAR(walked2 / lost_s, 3.0, 0.1) << "the square of a metre a second, each axis";
+  EXPECT_NEAR(walked2 / lost_s, 3.0, 0.1) << "the variance grows by 1 m^2 per second on each axis";
   ASSERT_GT(returns, 100);
-  EXPECT_GT(jumps / returns, 3.0) << "back over what it walked in a minute";
+  EXPECT_GT(jumps / returns, 3.0) << "a fix removes the drift of a minute in one jump";
 }
 
-TEST(OdometryError, PlacesWhatIsSeenByWhereTheUavTakesItselfToBe) {
+TEST(OdometryError, PlacesSeenPointsByTheBelievedPose) {
   OdometryError error(conditions_preset("harsh").odometry, 5, UavIndex{0});
   const RigidBodyState truth{.p_WB = {3, -4, 20}, .q_WB = kTilted};
   const Isometry3d X_told_W = error.X_told_W(truth);

@@ -44,7 +44,7 @@ TEST(PathLoss, FollowsTheLogDistanceLawWithItsShadowing) {
   EXPECT_NEAR(squares / kSamples, sigma * sigma, 0.12 * sigma * sigma) << "far ends fade independently";
 }
 
-TEST(PathLoss, LevelsFallWithDistanceToNone) {
+TEST(PathLoss, TheRateLevelFallsWithDistanceToZero) {
   RadioConditions radio = conditions_preset("harsh").radio;
   radio.shadowing_sigma_db = 0.0;
   const PathLoss loss(radio, 1);

@@ -63,7 +63,7 @@ class Windy : public testing::Test {
   std::unique_ptr<Simulation> simulation_;
 };
 
-TEST_F(Windy, AWindOfZeroIsNoneToTheBit) {
+TEST_F(Windy, AWindOfZeroChangesNoBit) {
   add("photographer", 0, 4);
   start();
   const std::string without = hover(12.0);
@@ -110,7 +110,7 @@ TEST_F(Windy, WindPushesAUavDownwindUntilItLeansIntoIt) {
   EXPECT_NEAR(up_W.y(), 0.0, 0.01);
 }
 
-TEST_F(Windy, AGustIsAFaultWithoutAnyWind) {
+TEST_F(Windy, AGustActsEvenWithoutAnyWind) {
   const FaultPlan faults{"test.yaml", "", "", {{.at_s = 12.0, .until_s = 13.0, .action = Gust{"uav0", {0, 12, 0}}}}};
   start(1, faults);
   double most_m = 0.0, before_m = 0.0;
@@ -122,7 +122,7 @@ TEST_F(Windy, AGustIsAFaultWithoutAnyWind) {
   EXPECT_GT(most_m, before_m + 0.15) << "along the gust";
 }
 
-TEST_F(Windy, AFaultFreshensTheWindForATime) {
+TEST_F(Windy, AFaultStrengthensTheWindForATime) {
   scenario_.conditions.wind = {.mean_mps = 4.0, .from_deg = 180.0};
   const ConfigNode wind = parse_config_document("{wind: {mean_mps: 10}}", "").root;
   const FaultPlan faults{"test.yaml", "", "", {{.at_s = 20.0, .until_s = 30.0, .action = ConditionsChange{wind}}}};
@@ -151,8 +151,8 @@ TEST_F(Windy, WithoutAFixAUavKnowsLessUntilTheFaultEnds) {
       }
     }
     EXPECT_EQ(told_m[0], untouched_m[0]);
-    EXPECT_GT(told_m[1].x(), 0.1 * std::sqrt(14.0)) << "of the walk alone";
-    EXPECT_EQ(told_m[2], untouched_m[2]) << "as if nothing had been";
+    EXPECT_GT(told_m[1].x(), 0.1 * std::sqrt(14.0)) << "the random walk alone reaches this";
+    EXPECT_EQ(told_m[2], untouched_m[2]) << "as if the fault had not happened";
   }
 }
 
@@ -199,8 +199,8 @@ TEST_F(Windy, SensorsAndRadioAreAsBeforeOnceAChangeEnds) {
   };
   hover(10.0);
   for (const double time_s : {14.9, 20.0 - 0.1, 25.0}) look_until(time_s);
-  EXPECT_LT(points[1], 0.5 * points[0]) << "a wet, dark wall";
-  EXPECT_NEAR(points[2], points[0], 0.1 * points[0]) << "the servo swings";
+  EXPECT_LT(points[1], 0.5 * points[0]) << "a wet, dark wall reflects less";
+  EXPECT_NEAR(points[2], points[0], 0.1 * points[0]) << "the counts vary as the servo swings";
   EXPECT_GT(linked[0], 0);
   EXPECT_EQ(linked[1], 0);
   EXPECT_EQ(linked[2], linked[0]);
@@ -254,7 +254,7 @@ TEST_F(Windy, OnTheGroundAnEmptyBatteryIsNoCollision) {
   EXPECT_FALSE(uav().airborne);
 }
 
-TEST_F(Windy, TheUavFliesWhereItTakesItselfToBeAndIsNotToldTheTruth) {
+TEST_F(Windy, TheUavFliesByItsOdometryAndIsNotToldTheTruth) {
   scenario_.conditions.odometry = {
       .horizontal_sigma_m = 0.5, .vertical_sigma_m = 0.2, .yaw_sigma_deg = 3.0, .mean_fix_s = {}};
   Simulation& sim = start(2);
@@ -262,9 +262,9 @@ TEST_F(Windy, TheUavFliesWhereItTakesItselfToBeAndIsNotToldTheTruth) {
   const Vector3d wanted_W(0.1, 0.0, 8.0);
   const double truly_off_m = (uav().state.p_WB - wanted_W).norm(), told_off_m = (uav().told.p_WB - wanted_W).norm();
   EXPECT_LT(told_off_m, 0.12);
-  EXPECT_GT(truly_off_m, 0.2) << "by the error that seed 2 draws";
+  EXPECT_GT(truly_off_m, 0.2) << "the UAV is off by the error that seed 2 draws";
   EXPECT_GT(uav().uncertainty.position_m.x(), 0.49);
-  // A point of the wall's near side, as the LiDAR shows it, is where the UAV takes it to be: off by its own error.
+  // The LiDAR places a point of the wall's near side relative to the odometry: it is off by the odometry's error.
   const Isometry3d X_told_W = uav().told.X_WB() * uav().state.X_WB().inverse();
   std::size_t on_wall = 0, points = 0;
   while (sim.events().scans.empty() && seconds(sim.tick()) < 30.0) sim.advance();
@@ -292,7 +292,7 @@ TEST_F(Windy, ALinkNeedsPowerBesideLineOfSight) {
   EXPECT_EQ(start().links().at(kStationNode, Node{1}), 0);
 }
 
-TEST_F(Windy, TheQualityOfALinkIsWhatArrivesAndTheRateThatItAllows) {
+TEST_F(Windy, TheQualityOfALinkIsItsReceivedPowerAndItsRate) {
   add("photographer", 40, 30);
   add("photographer", -60, -80);
   EXPECT_FALSE(start().link_quality(Node{1}, Node{2})) << "no path loss";
@@ -318,8 +318,8 @@ TEST_F(Windy, TheQualityOfALinkIsWhatArrivesAndTheRateThatItAllows) {
       }
     });
   }
-  EXPECT_GE(rates.size(), 3U) << "or the test shows little";
-  EXPECT_GE(closed, 20 * 20 * (4 + 6)) << "of all nodes with themselves, and of the one without a radio";
+  EXPECT_GE(rates.size(), 3U) << "else the test shows little";
+  EXPECT_GE(closed, 20 * 20 * (4 + 6)) << "links of all nodes to themselves, and of the node without a radio";
 }
 
 TEST_F(Windy, AShutterThatIsLateAndALongExposureBlurWhatAMovingCameraSees) {
@@ -354,7 +354,7 @@ TEST_F(Windy, AShutterThatIsLateAndALongExposureBlurWhatAMovingCameraSees) {
   EXPECT_GT(flown_with({.shutter_delay_s = 0.5}).first, usual.first);
 }
 
-TEST_F(Windy, DriftAndWindTellWhatTheyCostAndNothingElseDoes) {
+TEST_F(Windy, OnlyDriftAndWindRecordWhatTheyCost) {
   const auto shown_with = [&](const std::string& odometry, const std::string& wind) {
     scenario_.conditions = {};
     scenario_.conditions.odometry = conditions_preset(odometry).odometry;

@@ -62,7 +62,7 @@ TEST(WindPush, IsTheDifferenceToTheSameFlightWithoutWind) {
       return TrajectoryCommand{.p_WB = Vector3d(0.1, 0.0, 20.0) + t * v_W, .v_WB = v_W};
     };
     Flown windy(vehicle, wind, seed), calm(vehicle, {}, seed);
-    EXPECT_FALSE(calm.other_states().calm) << "there is no wind that it would do without";
+    EXPECT_FALSE(calm.other_states().calm) << "without wind there is nothing to estimate";
     for (int k = 1; k <= 200; ++k) {  // 20 s
       const Tick end = k * ticks(0.1);
       windy.fly_to(end, pilot);
@@ -76,11 +76,12 @@ TEST(WindPush, IsTheDifferenceToTheSameFlightWithoutWind) {
       EXPECT_EQ(told->q_WB.coeffs(), windy.state().q_WB.coeffs());
     }
   }
-  EXPECT_LT(std::sqrt(missed_m2), 0.25 * std::sqrt(off_m2)) << "17 % in the mean of squares, 3 cm";
-  EXPECT_LT(std::sqrt(missed_mps2), 0.5 * std::sqrt(off_mps2)) << "43 %, 3 cm/s: the attitude loop's lag in gusts";
+  EXPECT_LT(std::sqrt(missed_m2), 0.25 * std::sqrt(off_m2)) << "17 % (root mean square), 3 cm, when measured";
+  EXPECT_LT(std::sqrt(missed_mps2), 0.5 * std::sqrt(off_mps2))
+      << "43 %, 3 cm/s, when measured: the attitude loop lags in gusts";
 }
 
-TEST(WindPush, IsThatOfAGustByAFaultToo) {
+TEST(WindPush, IncludesTheGustOfAFault) {
   double off_m2 = 0.0, missed_m2 = 0.0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "wind_push_test_gust", 0);
@@ -95,7 +96,7 @@ TEST(WindPush, IsThatOfAGustByAFaultToo) {
       calm.fly_to(end, pilot);
       EXPECT_FALSE(calm.other_states().calm);
       const auto told = pushed.other_states().calm;
-      ASSERT_EQ(told.has_value(), k > 30) << "there was no gust before";
+      ASSERT_EQ(told.has_value(), k > 30) << "there is no estimate before the gust";
       if (!told) continue;
       off_m2 += (pushed.state().p_WB - calm.state().p_WB).squaredNorm();
       missed_m2 += (told->p_WB - calm.state().p_WB).squaredNorm();

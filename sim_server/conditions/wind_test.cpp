@@ -135,7 +135,7 @@ TEST(Wind, HasItsMeanAndItsVariancesHoveringAndFlying) {
   }
 }
 
-/// WindProfile computes each part once, or again if the height has changed; digests need the same bits.
+/// WindProfile computes each part once, and again only if the height has changed. Digests require the same bits.
 TEST(Wind, ItsProfileIsThatOfTheFormulasBitForBit) {
   RandomStream draw(5, "wind_test", 0);
   for (int i = 0; i < 50; ++i) {
@@ -178,7 +178,8 @@ TEST(Wind, BlowsAsItsNewConditionsSayAfterAChange) {
     for (Wind* wind : {&changed, &expected}) wind->step({0, 0, 20}, Vector3d::Zero(), 0.05);
     EXPECT_EQ(changed.velocity_W(), expected.velocity_W());
     const Vector3d off_W = changed.estimate_W() - expected.estimate_W();
-    EXPECT_LT((off_W - std::exp(-i * 0.05 / 0.3) * lag_W).norm(), 1e-12) << "the estimate lags as newly told";
+    EXPECT_LT((off_W - std::exp(-i * 0.05 / 0.3) * lag_W).norm(), 1e-12)
+        << "the estimate lags with the new time constant";
   }
 }
 

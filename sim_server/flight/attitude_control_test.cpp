@@ -40,7 +40,7 @@ TEST(AttitudeController, RotorsGiveTheTorqueAndThrustAskedFor) {
   }
 }
 
-TEST(AttitudeController, NoDemandNoRotation) {
+TEST(AttitudeController, WithoutADemandNoRotorTurns) {
   AttitudeController controller{VehicleConfig{}};
   for (const double speed : controller.step(Quaterniond::Identity(), Vector3d::Zero(), {})) EXPECT_EQ(speed, 0.0);
 }

@@ -152,7 +152,7 @@ TEST_F(CommandGuardTest, BarePositionsAreApproachedWithinTheLimits) {
   for (int run = 0; run < 60; ++run) {
     PointMass mass(vehicle_, rules_, {.p_WB = {200, 0, 200}, .v_WB = vector(3.4)});
     for (int target = 0; target < 4; ++target) {
-      // Also one that changes under way, and one right behind.
+      // The target may change on the way, also to a place right behind the UAV.
       const TrajectoryCommand command{.p_WB = mass.state().p_WB + vector(target % 2 == 0 ? 60.0 : 2.0)};
       const int steps = target == 3 ? 800 : 70;
       for (int i = 0; i < steps; ++i) {
@@ -183,12 +183,12 @@ TEST_F(CommandGuardTest, ThePointAheadSpeedsUpBrakesAndArrivesAsItShould) {
       mass.step({.p_WB = start + way});
       const double now = (mass.p_W_led() - start).dot(way.normalized());
       const double next_speed = (now - gone) / kStepS;
-      if (step > 1) {  // it sets out some way ahead of the UAV
+      if (step > 1) {  // the point ahead starts at some distance from the UAV
         ASSERT_LE(next_speed, speed + kSpeedUp + 1e-9) << "case " << i << " step " << step;
         ASSERT_GE(next_speed, speed - kBraking - 1e-9) << "case " << i << " step " << step;
       }
-      ASSERT_LE(now, way.norm() + 1e-9) << "case " << i << ": it never passes by";
-      ASSERT_NEAR((mass.p_W_led() - start - now * way.normalized()).norm(), 0.0, 1e-9) << "nor leaves the line";
+      ASSERT_LE(now, way.norm() + 1e-9) << "case " << i << ": it passes the target";
+      ASSERT_NEAR((mass.p_W_led() - start - now * way.normalized()).norm(), 0.0, 1e-9) << "it leaves the line";
       speed = next_speed;
       gone = now;
       fastest = std::max(fastest, step > 0 ? speed : 0.0);
@@ -198,7 +198,7 @@ TEST_F(CommandGuardTest, ThePointAheadSpeedsUpBrakesAndArrivesAsItShould) {
   }
 }
 
-TEST_F(CommandGuardTest, ThePointAheadMayBeWantedWhereItIs) {
+TEST_F(CommandGuardTest, ThePointAheadMayBecomeTheTarget) {
   PointMass mass(vehicle_, rules_, {.p_WB = {200, 0, 200}, .v_WB = {5, 0, 0}});
   for (int step = 0; step < 20; ++step) mass.step({.p_WB = {260, 0, 200}});
   const Vector3d target = mass.p_W_led();
@@ -208,7 +208,7 @@ TEST_F(CommandGuardTest, ThePointAheadMayBeWantedWhereItIs) {
   for (int step = 0; step < 400; ++step) {
     mass.step({.p_WB = step == 0 ? last : target});
     const double speed = (mass.p_W_led() - last).x() / 0.05;
-    ASSERT_LE(std::abs(speed - before), 4.0 * 0.05 + 1e-9) << "step " << step;  // fails, too, where it is not a number
+    ASSERT_LE(std::abs(speed - before), 4.0 * 0.05 + 1e-9) << "step " << step;  // also fails for NaN
     before = speed;
     last = mass.p_W_led();
   }
@@ -222,12 +222,12 @@ TEST_F(CommandGuardTest, StopsWithinItsBrakingDistanceAndALittle) {
     mass.step({.p_WB = {200, 0, 200}});
     farthest = std::max(farthest, mass.state().p_WB.x() - 200.0);
   }
-  EXPECT_GT(farthest, 0.98 * 6.0 * 6.0 / 8.0) << "no faster than the acceleration allows";
+  EXPECT_GT(farthest, 0.98 * 6.0 * 6.0 / 8.0) << "it brakes with no more than the permitted acceleration";
   EXPECT_LT(farthest, 5.5);
   EXPECT_NEAR(mass.state().p_WB.x(), 200.0, 0.02);
 }
 
-TEST_F(CommandGuardTest, WithoutItTheLawGetsEveryCommandAsItCame) {
+TEST_F(CommandGuardTest, SwitchedOffItPassesEveryCommandUnchanged) {
   rules_.guard_position_commands = false;
   CommandGuard guard(vehicle_, rules_);
   const TrajectoryCommand far{.p_WB = {1e4, 0, 50}, .v_WB = {1, 2, 3}, .a_WB = {4, 5, 6}, .yaw = 7, .yaw_rate = 8};

@@ -24,7 +24,7 @@ TEST(Contacts, TheUavComesFirstAndOfTwoTheLower) {
   }
 }
 
-TEST(Contacts, OneForEachPairTheDeepestWhateverTheOrder) {
+TEST(Contacts, OfEachPairTheDeepestRemainsInWhateverOrderTheyCome) {
   std::mt19937_64 random(3);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   for (int round = 0; round < 200; ++round) {
@@ -43,7 +43,7 @@ TEST(Contacts, OneForEachPairTheDeepestWhateverTheOrder) {
     std::ranges::shuffle(points, random);
     const std::vector<Contact> contacts = one_for_each_pair(points);
     ASSERT_EQ(contacts.size(), deepest.size());
-    auto expected = deepest.begin();  // in the order that is promised
+    auto expected = deepest.begin();  // in the order that the header promises
     for (const Contact& contact : contacts) {
       EXPECT_EQ(Pair(contact.uav, contact.other.kind, contact.other.uav), expected->first);
       EXPECT_EQ(contact.p_W.x(), expected->second);

@@ -62,7 +62,7 @@ TEST(RigidBody, TumblingKeepsAngularMomentumAndSpinEnergy) {
 }
 
 TEST(RigidBody, FreeFallTradesHeightForSpeed) {
-  // The height is integrated with the speed at the end of each step: g^2 t dt / 2 per mass is lost, no more, no less.
+  // Each step integrates the height with the speed at its end, so exactly g^2 t dt / 2 per mass is lost.
   for (const int steps : {1, 2, 8}) {
     const VehicleConfig config = vehicle_named("photographer");
     SpinningBody body(config, {2, -1, 3}, {4, -3, 10}, steps);
@@ -76,7 +76,7 @@ TEST(RigidBody, FreeFallTradesHeightForSpeed) {
   }
 }
 
-TEST(RigidBody, TorqueChangesAngularMomentumBySoMuch) {
+TEST(RigidBody, TorqueChangesAngularMomentumByItsImpulse) {
   SpinningBody body(vehicle_named("photographer"), {1, 2, 3});
   const Vector3d L = body.angular_momentum_W();
   Vector3d push = Vector3d::Zero();
@@ -133,11 +133,11 @@ TEST(RigidBody, SpinsSteadilyAboutTheGreatestAndLeastInertiaOnly) {
   };
   EXPECT_GT(axis_wanders(Vector3d::UnitX()), 0.99);
   EXPECT_GT(axis_wanders(Vector3d::UnitZ()), 0.99);
-  EXPECT_LT(axis_wanders(Vector3d::UnitY()), -0.9) << "a racket thrown up turns over";
+  EXPECT_LT(axis_wanders(Vector3d::UnitY()), -0.9) << "about the middle axis it flips, as a thrown racket does";
 }
 
 TEST(RigidBody, WorkOfTheRotorsIsTheEnergyGained) {
-  // Force times way plus torque times turn, summed up step by step over a flight with climbs, turns and stops.
+  // Sums force times distance plus torque times angle over the steps of a flight with climbs, turns and stops.
   for (const char* name : {"explorer", "photographer"}) {
     const VehicleConfig config = vehicle_named(name);
     Flight flight(config, 50.0);

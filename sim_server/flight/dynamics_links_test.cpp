@@ -170,7 +170,7 @@ TEST(CompositeBody, TheExplorerRollsAsItsPartsTogetherDo) {
     std::cout << "[ measured ] step of " << roll << " rad: within " << 1e3 * gap << " mrad; with the inertia of the "
               << "body alone " << 1e3 * lumped << " mrad\n";
     EXPECT_LT(gap, 0.003 * std::abs(roll));
-    EXPECT_GT(lumped, 0.03 * std::abs(roll)) << "the comparison would not tell the two apart";
+    EXPECT_GT(lumped, 0.03 * std::abs(roll)) << "else the comparison could not tell the two models apart";
   }
 }
 
@@ -187,7 +187,7 @@ TEST(CompositeBody, TheExplorerSpinsAndDropsAsItsPartsTogetherDo) {
       world.tick();
       hand.step(kTickS / 8, no_wrench);
       const RigidBodyState there = hand.state(), &here = world.state(UavIndex{0});
-      // The world's fall is of first order: g t dt / 2 too low.
+      // The world integrates a fall by a method of first order: the height is g t dt / 2 too low.
       const Vector3d low(0, 0, -0.5 * kWorldGravity * i * (kTickS / 8) * (kTickS / 8));
       ASSERT_LT((here.p_WB - there.p_WB - low).norm(), 1e-3) << i;
       ASSERT_LT((here.v_WB - there.v_WB).norm(), 2e-3) << i;
@@ -247,7 +247,7 @@ TEST(CompositeBody, AFreeBodyKeepsMomentumAndEnergyAboutItsCentreOfMass) {
   }
 }
 
-TEST(CompositeBody, APushAtBoTurnsWhatIsHeavierElsewhere) {
+TEST(CompositeBody, APushAtBoTurnsABodyWhoseCentreOfMassIsElsewhere) {
   // Force at Bo and torque: the work that they do is the energy gained, wherever the centre of mass is.
   RandomStream random(4, "pushes", 0);
   for (int flight = 0; flight < 20; ++flight) {
@@ -273,7 +273,7 @@ TEST(CompositeBody, APushAtBoTurnsWhatIsHeavierElsewhere) {
       work += done * kTickS / 16;
       effort += std::abs(done) * kTickS / 16;
     }
-    // The fall is of first order, which costs it g^2 t dt / 2 per mass, no more, no less.
+    // The integration of the fall is of first order, which loses exactly g^2 t dt / 2 per mass.
     const double lost = 0.5 * whole.mass_kg * kWorldGravity * kWorldGravity * 0.5 * kTickS / 16;
     EXPECT_NEAR(energy(world.state(UavIndex{0})) - begin, work - lost, 0.002 * effort) << flight;
   }

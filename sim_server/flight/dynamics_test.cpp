@@ -99,8 +99,8 @@ double second_order(double w, double z, double t) {
 }
 
 TEST_P(Dynamics, AStepSettlesAsFrequencyAndDampingSay) {
-  // Without the law's integral, which the two numbers know nothing of. The curve on paper knows neither motors nor
-  // tilt nor the 20 Hz of the law: they move the answer by up to a tenth of the step.
+  // Without the law's integral term, which frequency and damping do not include. Motors, tilt and the law's 20 Hz are
+  // not in the formula either: they change the response by up to a tenth of the step.
   config_.position_control.ki_xy = config_.position_control.ki_z = 0.0;
   const PositionControlConfig& law = config_.position_control;
   // The vertical thrust depends on the mass that the control law assumes.
@@ -159,7 +159,7 @@ TEST_P(Dynamics, TiltAndThrustStayWithinTheirLimits) {
   }
   std::cout << "[ measured ] " << GetParam() << ": tilt " << steepest_settled / max_tilt << " of the limit, at first "
             << steepest / max_tilt << "; thrust up to " << strongest / weight() << " of the weight\n";
-  EXPECT_GT(steepest_settled, 0.95 * max_tilt) << "the commands are not extreme";
+  EXPECT_GT(steepest_settled, 0.95 * max_tilt) << "else the commands are not extreme";
   EXPECT_LT(steepest_settled, 1.03 * max_tilt);
   EXPECT_LT(steepest, 1.2 * max_tilt) << "the attitude loop overshoots its demand, but not by more";
   EXPECT_LE(fastest_rotor, config_.rotor_max_speed);
@@ -183,10 +183,10 @@ TEST_P(Dynamics, TurnsNoFasterThanTheVehicleMay) {
   config_.max_yaw_rate_deg_s = 20.0;
   double fastest = 0.0;
   unguarded.fly(5.0, hover_at({1, 0, 50}, 3.0), [&] { fastest = std::max(fastest, unguarded.state().w_WB_B.z()); });
-  EXPECT_GT(fastest, 80.0 * kRadPerDeg) << "the reference knows no such limit but its own";
+  EXPECT_GT(fastest, 80.0 * kRadPerDeg) << "the reference has only its own limit";
 }
 
-TEST_P(Dynamics, MotorLagIsThereBothWays) {
+TEST_P(Dynamics, MotorsLagInSpeedingUpAndInSlowingDown) {
   // Time constants as a bench would measure them: from the thrust after a step, not from the code.
   constexpr double kFine = 1e-5;
   const auto time_to = [&](double from, double to, double share) {

@@ -93,7 +93,7 @@ TEST(FleetStart, AUavThatStartsAsFarAwayAsItMustTouchesNoOther) {
       return std::ranges::any_of(world.contacts(), [](const Contact& c) { return c.other.kind == BodyId::Kind::uav; });
     };
     EXPECT_FALSE(meet(least_start_distance(a, b)));
-    if (a.name != b.name) continue;  // their rotors are not at one height
+    if (a.name != b.name) continue;  // the rotors of different vehicles are at different heights
     EXPECT_TRUE(meet(0.25 * least_start_distance(a, b)));
   }
 }
@@ -163,7 +163,7 @@ TEST(FleetStart, OneUavsDrawDoesNotDependOnTheOthers) {
   EXPECT_EQ(all[1].motor_delay, moved[1].motor_delay);
 }
 
-TEST(FleetStart, TooCrowdedMeansNominal) {
+TEST(FleetStart, AFleetThatIsTooCrowdedForDrawsStartsAtItsNominalPlaces) {
   Scenario scenario = two_close_and_one_apart();
   scenario.fleet[1].start.x() = 0.8;  // no draw can part the circles of their rotors
   EXPECT_EQ(draw_fleet_start(scenario, 5, open_field, in_the_open)[1].X_WB.translation().head<2>(), Vector2d(0.8, 0.0));
@@ -182,7 +182,7 @@ TEST(FleetStart, AStartInTheStructureIsTheUsersMistake) {
   }
 }
 
-TEST(FleetStart, SoIsAStartWithoutAWayOut) {
+TEST(FleetStart, AStartWithoutAWayOutIsTheUsersMistake) {
   const Scenario scenario = two_close_and_one_apart();
   const auto enclosed = [](const Vector3d& p_WB) { return p_WB.x() > 10.0 && p_WB.z() > 0.0; };
   try {

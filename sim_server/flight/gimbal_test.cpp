@@ -1,4 +1,4 @@
-// The gimbal law where the reference vectors do not reach: honest rates, stops, modes.
+// The gimbal law in cases that the reference vectors lack: reported rates, stops, modes.
 #include "sim_server/flight/gimbal.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(Gimbal, AngleIsReachedAndHeldWithoutFurtherCommands) {
   EXPECT_NEAR(gimbal.state().yaw, -1.2, 1e-9);
 }
 
-TEST(Gimbal, ModeNumbersOfTheWire) {
+TEST(Gimbal, TheModeFollowsFromTheSignOfTheNumber) {
   EXPECT_EQ(gimbal_mode(1.0), GimbalMode::angle);
   EXPECT_EQ(gimbal_mode(1e-12), GimbalMode::angle);
   EXPECT_EQ(gimbal_mode(0.0), GimbalMode::freeze);

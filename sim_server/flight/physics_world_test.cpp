@@ -279,7 +279,7 @@ std::vector<RigidBodyState> chaos(std::size_t fleet) {
 
 TEST(PhysicsWorld, RepeatsBitForBit) {
   const auto first = chaos(12);
-  std::vector<std::unique_ptr<char[]>> noise;  // other addresses for the second run
+  std::vector<std::unique_ptr<char[]>> noise;  // so that the second run allocates at other addresses
   for (std::size_t i = 1; i < 400; ++i) noise.push_back(std::make_unique<char[]>(37 * i % 5000 + 1));
   for (std::size_t i = 0; i < noise.size(); i += 3) noise[i].reset();
   const auto second = chaos(12);
@@ -291,7 +291,7 @@ TEST(PhysicsWorld, RepeatsBitForBit) {
   }
 }
 
-/// A body that no integration survives, and one beside it that has nothing to do with it.
+/// One body has a state that the integration cannot handle; it must not affect another one beside it.
 TEST(PhysicsWorld, ABodyThatLeavesTheWorldIsTakenOut) {
   for (const double speed : {1e5, 1e9, 1e150, 1e300}) {
     PhysicsWorld world({});

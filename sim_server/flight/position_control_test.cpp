@@ -53,7 +53,7 @@ TEST(PositionController, AnAllZeroCommandMeansStayAndTurn) {
   EXPECT_GT(demand.yaw_rate, 1.0);
 }
 
-TEST(PositionController, StopIsForGood) {
+TEST(PositionController, AStopIsPermanent) {
   PositionController controller({});
   controller.step(hovering({1, 2, 5}), go_to({9, 2, 5}), 0);
   controller.stop();

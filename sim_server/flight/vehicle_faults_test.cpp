@@ -22,7 +22,7 @@ Fault fault(double at_s, std::optional<double> until_s, FaultAction action) {
 
 FaultPlan plan(std::vector<Fault> faults) { return {"test.yaml", "", "", std::move(faults)}; }
 
-TEST(VehicleConditions, HoldWhileTheFaultDoesAndForItsUavOnly) {
+TEST(VehicleConditions, LastAsLongAsTheirFaultAndAffectOnlyItsUav) {
   const FaultPlan faults = plan({fault(1.0, 2.0, LidarFailure{"a"}), fault(1.5, std::nullopt, CameraFailure{"b"}),
                                  fault(1.0, 2.0, MotorFailure{"b", 4, 0.25}), fault(1.0, 2.0, CommandDelay{"a", 3}),
                                  fault(0.0, std::nullopt, Blackout{"a"}), fault(0.0, std::nullopt, Kill{"b"})});
@@ -46,7 +46,7 @@ TEST(VehicleConditions, HoldWhileTheFaultDoesAndForItsUavOnly) {
   EXPECT_TRUE(at(100.0)[0].camera_works);
 }
 
-TEST(VehicleConditions, TellTwoEqualBatteryLossesWithoutAGapApart) {
+TEST(VehicleConditions, DistinguishTwoEqualBatteryLossesWithoutAGap) {
   const FaultPlan faults = plan({fault(1.0, 2.0, BatteryLoss{"a", 0.3}), fault(2.0, 3.0, BatteryLoss{"a", 0.3})});
   const auto at = [&](double t) { return vehicle_conditions(faults, {"a", "b"}, ticks(t))[0]; };
   EXPECT_EQ(at(0.95).most_charge, 1.0);
@@ -79,7 +79,7 @@ TEST(FaultTimeline, TellsEachBeginningAndEndOnce) {
   EXPECT_TRUE(json[2]["began_step"].is_null()) << "the run ended before";
 }
 
-// Commands arrive in the order in which they were sent, none is lost, and each at the earliest when it is old enough.
+// Commands arrive in the order in which they were sent. None is lost, and none arrives before its delay is over.
 TEST(CommandLink, NoCommandOvertakesAnotherHoweverDelaysChange) {
   RandomStream random(1, "delays", 0);
   for (const bool late : {false, true}) {
@@ -96,7 +96,7 @@ TEST(CommandLink, NoCommandOvertakesAnotherHoweverDelaysChange) {
       if (!arrived.gimbal) continue;
       const int newest = static_cast<int>(arrived.gimbal->yaw);
       EXPECT_GT(newest, last);
-      EXPECT_EQ(newest, k - delay - (late ? 1 : 0)) << "the newest that is old enough";
+      EXPECT_EQ(newest, k - delay - (late ? 1 : 0)) << "the newest command whose delay is over";
       last = newest;
     }
     EXPECT_EQ(triggers, sent);
@@ -181,13 +181,13 @@ TEST_F(Faulty, ADeadRotorBringsTheUavDownAndOnlyThisOne) {
   EXPECT_GT(simulation_->uav(UavIndex{1}).state.p_WB.z(), 9.0);
 }
 
-TEST_F(Faulty, AWeakRotorIsBorne) {
+TEST_F(Faulty, AUavFliesOnWithAWeakRotor) {
   fly(plan({fault(10.0, std::nullopt, MotorFailure{"lead", 2, 0.9})}), 20.0, [](double) {});
   EXPECT_TRUE(lead().alive);
   EXPECT_GT(lead().state.p_WB.z(), 9.0);
 }
 
-TEST_F(Faulty, DelayedCommandsActThatMuchLater) {
+TEST_F(Faulty, DelayedCommandsActLaterByTheirDelay) {
   std::vector<Vector3d> prompt, delayed;
   fly({}, 12.0, [&](double) { prompt.push_back(lead().state.p_WB); });
   constexpr int kDelay = 8;
@@ -200,7 +200,7 @@ TEST_F(Faulty, DelayedCommandsActThatMuchLater) {
   }
 }
 
-TEST_F(Faulty, ALinkMayEndBeforeWithinItsTimeAndOneWayOnly) {
+TEST_F(Faulty, AFaultShortensTheRangeOfALinkInOneDirectionAndForItsTimeOnly) {
   LinkEffect short_one;
   short_one.from = {"lead"};
   short_one.to = {"other"};
@@ -235,7 +235,7 @@ TEST_F(Faulty, ABlackoutSilencesBothWaysButNotTheLineOfSight) {
   EXPECT_FALSE(key_frames_out);
 }
 
-TEST_F(Faulty, AFrozenOdometryTellsWhereItWasAndAJumpingOneWhereItIsNot) {
+TEST_F(Faulty, AFrozenOdometryReportsAnOldPoseAndAJumpingOneAWrongPose) {
   const Vector3d offset(2, -1, 0.5);
   const FaultPlan faults =
       plan({fault(10.0, 15.0, OdometryFreeze{"lead"}), fault(6.0, 8.0, OdometryJump{"other", offset})});
@@ -251,7 +251,7 @@ TEST_F(Faulty, AFrozenOdometryTellsWhereItWasAndAJumpingOneWhereItIsNot) {
     EXPECT_EQ(a.told.p_WB, expected.p_WB) << t;
     EXPECT_EQ(a.told.v_WB, expected.v_WB) << t;
     if (is_frozen) {
-      EXPECT_LT((a.told.p_WB - frozen.p_WB).norm(), 0.2) << "of the step in which it began";
+      EXPECT_LT((a.told.p_WB - frozen.p_WB).norm(), 0.2) << "the pose at the step in which the fault began";
     }
     const Vector3d jump = t >= 6.0 && t < 8.0 ? offset : Vector3d::Zero();
     EXPECT_LT((b.told.p_WB - b.state.p_WB - jump).norm(), 1e-12) << t;
@@ -259,12 +259,12 @@ TEST_F(Faulty, AFrozenOdometryTellsWhereItWasAndAJumpingOneWhereItIsNot) {
   EXPECT_GT(moved, 2.0) << "it flew on meanwhile";
 }
 
-TEST_F(Faulty, NoUavFliesOtherwiseBecauseOfWhatItIsTold) {
+TEST_F(Faulty, AFalseOdometryDoesNotChangeTheFlightOfGivenCommands) {
   std::vector<Vector3d> with, without;
   fly(plan({fault(5.0, std::nullopt, OdometryJump{"lead", {5, 5, 5}})}), 10.0,
       [&](double) { with.push_back(lead().state.p_WB); });
   fly({}, 10.0, [&](double) { without.push_back(lead().state.p_WB); });
-  EXPECT_EQ(with, without) << "commands are the same, and flight control knows better";
+  EXPECT_EQ(with, without) << "commands are the same, and the flight controller uses the true state";
 }
 
 TEST_F(Faulty, AStuckGimbalStaysAndThenObeysTheLastCommand) {

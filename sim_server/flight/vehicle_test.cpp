@@ -37,7 +37,7 @@ TEST_P(VehicleKinds, RotorsFollowWithTheirTimeConstants) {
 }
 
 TEST_P(VehicleKinds, DemandedTorquesAreProduced) {
-  // The attitude controller's mixer and the rotors' places and turns must speak of the same vehicle.
+  // The attitude controller's mixer must match the rotors' positions and directions of rotation.
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {
       AttitudeController controller(config_);

@@ -33,7 +33,7 @@ TEST(Braking, FliesOnThenStopsAfterVSquaredByTwoA) {
     EXPECT_NEAR(way.norm(), braking.way_m(), 1e-9);
     EXPECT_NEAR(way.dot(braking.v_W), way.norm() * v, 1e-9) << "straight on";
     const double t = random.uniform(0.0, braking.delay_s);
-    EXPECT_LT((braking.at(t) - braking.p_W - t * braking.v_W).norm(), 1e-9) << "nobody has heard yet";
+    EXPECT_LT((braking.at(t) - braking.p_W - t * braking.v_W).norm(), 1e-9) << "during the delay it flies on";
     EXPECT_LT((braking.at(braking.rest_s() + 9.0) - braking.end_W()).norm(), 1e-9) << "it stands";
     const double dt = 1e-4, late = braking.delay_s + 0.5 * v / a;
     EXPECT_NEAR((braking.at(late + dt) - braking.at(late - dt)).norm() / (2.0 * dt), 0.5 * v, 1e-6) << "half as fast";
@@ -65,7 +65,7 @@ TEST(Braking, SegmentsAreAsFarApartAsTheirNearestPoints) {
   }
 }
 
-TEST(Braking, HeadOnTheyComeNearerByBothWays) {
+TEST(Braking, TwoHeadOnComeNearerByTheSumOfTheirWays) {
   RandomStream random(3, "head_on", 0);
   for (int i = 0; i < 100; ++i) {
     Braking a = drawn_braking(random), b = drawn_braking(random);
@@ -78,7 +78,7 @@ TEST(Braking, HeadOnTheyComeNearerByBothWays) {
   }
 }
 
-TEST(Braking, TwoThatBrakeAreAsNearAsAnySampleSays) {
+TEST(Braking, TheLeastDistanceOfTwoThatBrakeAgreesWithSamples) {
   RandomStream random(4, "pairs", 0);
   int near = 0;
   for (int i = 0; i < 300; ++i) {
@@ -89,7 +89,7 @@ TEST(Braking, TwoThatBrakeAreAsNearAsAnySampleSays) {
     }
     const Least found = least_distance(a, b, 50.0, kTolerance);
     EXPECT_NEAR(found.value, least, kTolerance + 0.01) << i;
-    EXPECT_DOUBLE_EQ(found.value, (a.at(found.at) - b.at(found.at)).norm()) << "where it says";
+    EXPECT_DOUBLE_EQ(found.value, (a.at(found.at) - b.at(found.at)).norm()) << "the distance at the reported time";
     // A distance that is greater than the requested maximum is reported as that maximum.
     const double most = random.uniform(0.0, 6.0);
     const Least asked = least_distance(a, b, most, kTolerance);

@@ -17,7 +17,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kRight = FlightCheck::kToleranceM + 1e-4;  // and single precision
+constexpr double kRight = FlightCheck::kToleranceM + 1e-4;  // the second term is for single precision
 
 Scenario fleet_of(const std::vector<std::string>& vehicles) {
   Scenario scenario;
@@ -52,7 +52,7 @@ RayScene wall_from_x_0() {
   return RayScene(mesh);
 }
 
-TEST(FlightCheck, ASphereTowardsAWall) {
+TEST(FlightCheck, FindsASphereThatCannotStopBeforeAWall) {
   const Scenario scenario = fleet_of({"explorer"});
   const VehicleConfig& vehicle = scenario.fleet[0].vehicle;
   const RayScene wall = wall_from_x_0();
@@ -81,7 +81,7 @@ TEST(FlightCheck, ASphereTowardsAWall) {
   EXPECT_GT(free, 30);
 }
 
-TEST(FlightCheck, AThinPoleBesideTheWay) {
+TEST(FlightCheck, FindsAThinPoleThatIsTooCloseToTheWay) {
   const Scenario scenario = fleet_of({"photographer"});
   const VehicleConfig& vehicle = scenario.fleet[0].vehicle;
   TriangleMesh mesh;
@@ -103,7 +103,7 @@ TEST(FlightCheck, AThinPoleBesideTheWay) {
   }
 }
 
-TEST(FlightCheck, TwoHeadOn) {
+TEST(FlightCheck, FindsTwoThatFlyHeadOnAndCannotStop) {
   const Scenario scenario = fleet_of({"explorer", "photographer"});
   const RayScene nothing{TriangleMesh{}};
   const double radii = body_sphere_m(scenario.fleet[0].vehicle) + body_sphere_m(scenario.fleet[1].vehicle);
@@ -125,10 +125,10 @@ TEST(FlightCheck, TwoHeadOn) {
   }
 }
 
-TEST(FlightCheck, WaysMeetWhereBodiesDoNot) {
+TEST(FlightCheck, WaysMayMeetWhereTheBodiesNeverDo) {
   const Scenario scenario = fleet_of({"photographer", "photographer"});
   const RayScene nothing{TriangleMesh{}};
-  // One flies ahead of the other: both brake alike, but where the first stops now the second one comes through.
+  // One UAV flies ahead of the other, and both brake alike: the second one passes the present place of the first one.
   const auto found = found_in(scenario, nothing, {flying({0, 0, 9}, {5, 0, 0}), flying({2, 0, 9}, {5, 0, 0})});
   EXPECT_EQ(found.braking_meets, 0U);
   EXPECT_EQ(found.ways_meet, 1U);
@@ -150,7 +150,7 @@ TEST(FlightCheck, AUavThatCatchesUpAfterTakeOffDoesNotTrackYet) {
   check.add(401 + ticks(FlightCheck::kCatchUpS), nothing, std::vector{uav});
   ASSERT_EQ(seen(), 1U);
   EXPECT_NEAR(check.findings().tracking.quantiles().max, 0.5, results::TrackingTable::kErrorStepM + 1e-9);
-  uav.setpoint->p_WB = {0, 0, 0};  // none is given
+  uav.setpoint->p_WB = {0, 0, 0};  // all zeros: the command has no position
   check.add(8000, nothing, std::vector{uav});
   uav.setpoint.reset();
   check.add(8020, nothing, std::vector{uav});
@@ -158,7 +158,7 @@ TEST(FlightCheck, AUavThatCatchesUpAfterTakeOffDoesNotTrackYet) {
   EXPECT_EQ(check.findings().exchanges, 4U);
 }
 
-TEST(FlightCheck, AUavThatIsOutOrStandsOnTheGroundIsNoPilot) {
+TEST(FlightCheck, AUavThatIsOutOrStandsOnTheGroundIsNotChecked) {
   const Scenario scenario = fleet_of({"explorer", "explorer"});
   const RayScene wall = wall_from_x_0();
   CheckedUav out = flying({-1, 0, 5}, {6, 0, 0});
@@ -169,7 +169,7 @@ TEST(FlightCheck, AUavThatIsOutOrStandsOnTheGroundIsNoPilot) {
   EXPECT_EQ(found.exchanges, 0U);
   EXPECT_EQ(found.braking_hits + found.braking_meets + found.ways_meet, 0U);
   EXPECT_EQ(found.least_separation_m, FlightCheck::kMostM);
-  // But who stands is in the way of who flies.
+  // But a UAV that stands is an obstacle for one that flies.
   const auto other = found_in(scenario, wall, {flying({-50, 0, 5}, {6, 0, 0}), [&] {
                                                  CheckedUav still = stands;
                                                  still.p_W = {-46, 0, 5};
@@ -178,7 +178,7 @@ TEST(FlightCheck, AUavThatIsOutOrStandsOnTheGroundIsNoPilot) {
   EXPECT_EQ(other.braking_meets, 1U);
 }
 
-/// One setpoint after the other, as a pilot has it.
+/// A pilot's setpoints, one after the other.
 using Pilot = std::function<TrajectoryCommand(double t)>;
 
 /// Climbs to z, then flies along a line from its start: as fast as it may, and brakes such that it stands at `end_m`.
@@ -275,7 +275,7 @@ TEST(FlightCheck, FindsTwoThatPassNearerThanTheyCouldBrake) {
   EXPECT_EQ(near.first[0].uav, "uav0");
   EXPECT_EQ(near.first[0].with, "uav1");
   EXPECT_LT(Vector3d((*near.first[0].position).data()).head<2>().norm(), 2.0) << "at the crossing";
-  // When the fast one is so late, the slow one has left the crossing before it would get there.
+  // If the fast UAV arrives that late, the slow one has left the crossing before.
   const auto far = fly(2.5, collided);
   ASSERT_FALSE(collided);
   EXPECT_EQ(*far.braking_meets, 0U);
