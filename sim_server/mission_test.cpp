@@ -129,7 +129,7 @@ TEST_F(MissionTest, EachOfAPairIsJudgedByItsOwnState) {
     m.update(1, states, {});
     const auto collisions = m.update(2, states, {pair});
     EXPECT_EQ(m.alive(UavIndex{0}), !first);
-    EXPECT_EQ(m.alive(UavIndex{1}), !second) << "who rests and is touched lives";
+    EXPECT_EQ(m.alive(UavIndex{1}), !second) << "a resting UAV that is touched survives";
     EXPECT_EQ(collisions.size(), static_cast<std::size_t>(first + second));
     EXPECT_TRUE(m.alive(UavIndex{2}));
   }

@@ -26,10 +26,10 @@ class PaceTest : public testing::Test {
 
 TEST_F(PaceTest, KeepsTheSpeed) {
   EXPECT_EQ(exchanges(1000), 40) << "2 s in a second, of 0.05 s each";
-  EXPECT_NEAR(pace_.held_s(), 1.0, 0.07) << "exchanges take no time here, and each is seen to be held 1 ms late";
+  EXPECT_NEAR(pace_.held_s(), 1.0, 0.07) << "exchanges take no time here, and the test notices each hold 1 ms late";
 }
 
-TEST_F(PaceTest, AsFastAsTheMachineAllowsHoldsNothing) {
+TEST_F(PaceTest, WithoutASpeedLimitItHoldsNothing) {
   pace_.obey({Kind::speed, std::nullopt});
   EXPECT_EQ(exchanges(100), 100);
   EXPECT_EQ(pace_.held_s(), 0.0);
@@ -44,7 +44,7 @@ TEST_F(PaceTest, PauseHoldsUntilItGoesOn) {
   pace_.obey({Kind::resume});
   EXPECT_EQ(exchanges(1), 1) << "at once";
   EXPECT_GT(pace_.held_s(), 60.0);
-  EXPECT_EQ(exchanges(1000), 40) << "what was held is not caught up with";
+  EXPECT_EQ(exchanges(1000), 40) << "the time of the pause is not made up for";
 }
 
 TEST(Pace, PausesByItselfOnce) {
@@ -63,7 +63,7 @@ TEST(Pace, PausesByItselfOnce) {
 
 TEST_F(PaceTest, AStepIsOneExchange) {
   pace_.obey({Kind::step});
-  EXPECT_EQ(exchanges(1000), 0) << "who asks for a step of a run that goes wants it to stand";
+  EXPECT_EQ(exchanges(1000), 0) << "a request for one step pauses a run that goes on";
   pace_.obey({Kind::step});
   EXPECT_EQ(pace_.left(now_), Pace::Clock::duration(0));
   EXPECT_EQ(exchanges(1000), 1);
@@ -73,9 +73,9 @@ TEST_F(PaceTest, AStepIsOneExchange) {
   EXPECT_TRUE(pace_.paused());
 }
 
-TEST_F(PaceTest, CatchesUpWithLittle) {
+TEST_F(PaceTest, CatchesUpOnlyALittleOfALongDelay) {
   EXPECT_EQ(exchanges(100), 4);
-  now_ += std::chrono::seconds(10);  // an exchange that took so long
+  now_ += std::chrono::seconds(10);  // one exchange took 10 s
   EXPECT_LE(exchanges(1000), 40 + 11);
   EXPECT_EQ(exchanges(1000), 40);
 }

@@ -1,5 +1,5 @@
-// The best picture of each point that none counts for: compared with every picture of drawn flights, judged by the
-// formulas and with a ray for each point.
+// For each point for which no picture counts, the best picture: compared with all pictures of drawn flights, judged by
+// the formulas and with a ray for each point.
 #include "sight/poor_pictures.hpp"
 
 #include <gtest/gtest.h>
@@ -130,7 +130,7 @@ TEST(PoorPictures, ChangeNothingElseThatACameraSees) {
   EXPECT_GT(poor, 50U);
 }
 
-TEST(PoorPictures, OfEqualsTheFirstStays) {
+TEST(PoorPictures, OfEqualPicturesTheFirstStays) {
   PoorPictures pictures(3);
   EXPECT_EQ(pictures.best(1), std::nullopt);
   pictures.add({1, 0.0F, 0.0F, 0.5F, 0.75F});
@@ -140,7 +140,7 @@ TEST(PoorPictures, OfEqualsTheFirstStays) {
   EXPECT_EQ(pictures.best(1), (PoorSight{1, 0.125F, 0.25F, 0.5F, 0.75F}));
   pictures.close(1);
   pictures.add({1, 0.1875F, 0.5F, 0.375F, 0.75F});
-  EXPECT_EQ(pictures.best(1), std::nullopt) << "a picture counted";
+  EXPECT_EQ(pictures.best(1), std::nullopt) << "a picture of this point counted";
   EXPECT_EQ(pictures.best(0), std::nullopt);
 }
 

@@ -15,7 +15,7 @@ Detection detection(std::uint32_t point, double q, bool improved) {
 
 Capture capture(Tick tick, std::vector<Detection> detections) { return {tick, std::move(detections)}; }
 
-TEST(Referee, EntersOnlyWhatImproved) {
+TEST(Referee, EntersOnlyCapturesThatImprovedAPoint) {
   Referee referee(0, 2, 10, RulesConfig{});
   EXPECT_FALSE(referee.enter(UavIndex{0}, capture(41, {})));
   EXPECT_FALSE(referee.enter(UavIndex{0}, capture(82, {detection(3, 0.5, false)})));
@@ -29,7 +29,7 @@ TEST(Referee, EntersOnlyWhatImproved) {
   EXPECT_EQ(referee.earned().score(), 0.75);
 }
 
-TEST(Referee, NumbersWithoutGaps) {
+TEST(Referee, NumbersItsEntriesWithoutGaps) {
   Referee referee(3, 3, 1000, RulesConfig{});
   std::set<std::uint64_t> tokens;
   std::vector<std::uint64_t> of_uav(3, 0);
@@ -69,7 +69,7 @@ TEST(Referee, TokensFollowTheSeed) {
   EXPECT_NE(token(1), token(2));
 }
 
-TEST(Referee, CollisionEndsAndVoids) {
+TEST(Referee, ACollisionEndsAUavsCapturesAndVoidsItsPoints) {
   Referee referee(0, 2, 2, RulesConfig{});
   referee.enter(UavIndex{0}, capture(41, {detection(0, 0.9, true)}));
   referee.enter(UavIndex{1}, capture(41, {detection(0, 0.5, true), detection(1, 1.0, true)}));

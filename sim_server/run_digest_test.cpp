@@ -77,7 +77,7 @@ TEST(RunDigest, TokensAndGimbalRatesDoNotEnter) {
   EXPECT_EQ(changed.hashed().running, base.running);
 }
 
-TEST(RunDigest, RunsOn) {
+TEST(RunDigest, TheRunningDigestDependsOnAllSteps) {
   Exchange exchange;
   std::string all;
   const StepDigest first = exchange.hashed(&all);

@@ -56,7 +56,7 @@ class LiveSignalsTest : public testing::Test {
   std::unique_ptr<signals::LiveSignals> signals_;
 };
 
-TEST_F(LiveSignalsTest, AreWhatTheWorldIs) {
+TEST_F(LiveSignalsTest, AgreeWithTheSimulatedWorld) {
   faults_.faults.push_back({.at_s = 5.0, .until_s = 7.0, .action = Blackout{"a"}});
   double captured = 0.0;
   std::size_t with_fault = 0;
@@ -70,7 +70,7 @@ TEST_F(LiveSignalsTest, AreWhatTheWorldIs) {
     EXPECT_EQ(value("separation(a)"), std::min(between(0, 1), between(0, 2)));
     EXPECT_EQ(value("separation(c, b)"), between(1, 2));
     EXPECT_NEAR(value("clearance(a)"), 12.0 - uav(0).state.p_WB.x(), 1e-3);
-    EXPECT_EQ(value("charge(a)"), 1.0) << "it has no battery";
+    EXPECT_EQ(value("charge(a)"), 1.0) << "a UAV without a battery counts as full";
     EXPECT_EQ(value("clearance"), std::min({value("clearance(a)"), value("clearance(b)"), value("clearance(c)")}));
     EXPECT_EQ(value("faults"), simulation_->tick() >= ticks(5.0) && simulation_->tick() < ticks(7.0) ? 1.0 : 0.0);
     with_fault += value("faults") > 0.0;
@@ -79,14 +79,14 @@ TEST_F(LiveSignalsTest, AreWhatTheWorldIs) {
     EXPECT_EQ(value("held"), captured - value("acknowledged"));
   });
   EXPECT_EQ(with_fault, 40U);
-  EXPECT_GT(captured, 3.0) << "or the test shows little";
+  EXPECT_GT(captured, 3.0) << "else the test shows little";
   signals_->add_release(UavIndex{0});
   EXPECT_EQ(value("acknowledged(a)"), 1.0);
   EXPECT_EQ(value("acknowledged(b)"), 0.0);
   EXPECT_EQ(value("held"), captured - 1.0);
 }
 
-TEST_F(LiveSignalsTest, AChargeIsThatOfTheUavsBattery) {
+TEST_F(LiveSignalsTest, ChargeIsThatOfTheUavsBattery) {
   scenario_.duration_s = 60.0;
   scenario_.conditions.battery = conditions_preset("harsh").battery;
   fly(5.0, [&] {
@@ -104,7 +104,7 @@ TEST_F(LiveSignalsTest, AProgramThatComesBackHasRestarted) {
     ++step;
     const bool first = step <= 10, second = step > 10 && step <= 20, third = step > 20 && step <= 30;
     EXPECT_EQ(value("restarts(a)"), first || second ? 0.0 : third ? 1.0 : 2.0) << step;
-    EXPECT_EQ(value("restarts(b)"), 0.0) << "joined for the first time";
+    EXPECT_EQ(value("restarts(b)"), 0.0) << "b has only joined for the first time";
     EXPECT_EQ(value("restarts"), value("restarts(a)"));
     EXPECT_EQ(value("leaves(a)"), step <= 10 ? 0.0 : step < 30 ? 1.0 : 2.0) << step;
     if (step == 10) away_ = {"a", "gcs"};

@@ -219,8 +219,8 @@ TEST_F(Field, AUavLearnsNothingOfThePicturesOfOthers) {
     return seen;
   };
   const Seen alone = flown(false), both = flown(true);
-  EXPECT_GT(both.score, alone.score) << "the other one photographs points, too";
-  EXPECT_EQ(both.places_W, alone.places_W) << "but flies as before";
+  EXPECT_GT(both.score, alone.score) << "the other UAV photographs points, too";
+  EXPECT_EQ(both.places_W, alone.places_W) << "both UAVs fly as before";
   ASSERT_FALSE(alone.reports.empty());
   EXPECT_EQ(both.reports, alone.reports);
   EXPECT_EQ(both.best, alone.best);
@@ -242,7 +242,7 @@ TEST_F(Field, OnlyExplorersScanAndNeighboursInSightGetTheKeyFrame) {
   add("photographer", 3, 0);
   add("photographer", 20, 0);  // behind the wall
   Simulation& sim = start();
-  ASSERT_EQ(sim.events().scans.size(), 1U) << "the first scan is there before anything moves";
+  ASSERT_EQ(sim.events().scans.size(), 1U) << "the first scan is taken before anything moves";
   ASSERT_EQ(sim.events().key_frames.size(), 1U);
   EXPECT_EQ(sim.events().key_frames[0].neighbours, std::vector{UavIndex{1}});
   std::vector<Tick> scans;
@@ -276,7 +276,7 @@ TEST_F(Field, LinksEndAtTheirRange) {
   scenario_.links = {short_way_back};
   const Simulation& sim = start();
   EXPECT_EQ(sim.links().at(Node{1}, Node{2}), 1);
-  EXPECT_EQ(sim.links().at(Node{2}, Node{1}), 0) << "8 m";
+  EXPECT_EQ(sim.links().at(Node{2}, Node{1}), 0) << "they are 8 m apart";
 }
 
 TEST_F(Field, StoppedUavFallsAndIsNotDead) {
@@ -308,7 +308,7 @@ TEST_F(Field, DelayedMotorsStartWithTheNewestCommand) {
   add("photographer", 0, 5);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Simulation& sim = start(seed);
-    fly(0.05, {to(0.5, 0, 40), to(0.5, 5, 40)});  // the only command of this kind
+    fly(0.05, {to(0.5, 0, 40), to(0.5, 5, 40)});  // only one exchange has these commands
     fly(8.0, {to(0.5, 0, 5), to(0.5, 5, 5)});
     EXPECT_NEAR(sim.uav(UavIndex{0}).state.p_WB.z(), 5.0, 0.3);
     EXPECT_NEAR(sim.uav(UavIndex{1}).state.p_WB.z(), 5.0, 0.3);
@@ -341,7 +341,7 @@ TEST_F(Field, AVehicleThatNoIntegrationSurvivesIsOutAndTheOthersFlyOn) {
     EXPECT_EQ(strays[0].uav, 0U);
     EXPECT_EQ(strays[0].p_W, sim.uav(UavIndex{0}).state.p_WB);
     EXPECT_FALSE(sim.uav(UavIndex{0}).alive);
-    EXPECT_EQ(sim.links().at(kStationNode, Node{1}), 0) << "the station hears it";
+    EXPECT_EQ(sim.links().at(kStationNode, Node{1}), 0) << "the UAV that is out has no link to the station";
     EXPECT_TRUE(sim.uav(UavIndex{1}).alive && sim.uav(UavIndex{1}).airborne);
     EXPECT_NEAR((sim.uav(UavIndex{1}).state.p_WB - Vector3d(0, 4, 5)).norm(), 0.0, 0.3);
     digests.push_back(digest.hex());

@@ -112,7 +112,8 @@ TEST(WholeSimulation, ScansWithoutAReaderChangeNothingElse) {
       sim->advance();
     }
     ASSERT_EQ(all.events().servos.size(), all.events().scans.size());
-    ASSERT_EQ(lazy.events().servos.size(), all.events().scans.size()) << "told at each scan, computed or not";
+    ASSERT_EQ(lazy.events().servos.size(), all.events().scans.size())
+        << "the servo's angle is reported at each scan, whether the scan is computed or not";
     for (std::size_t i = 0; i < all.events().scans.size(); ++i) {
       const LidarServo &servo = all.events().servos[i].servo, &lazy_servo = lazy.events().servos[i].servo;
       ASSERT_EQ(servo.tick, all.events().scans[i].scan.tick);

@@ -1,5 +1,5 @@
 // Properties of every wild world: sound meshes, the same bytes from the same number, points in boxes, a fleet that can
-// start, and a way out, into sight of points and home again. And that worlds differ as they should.
+// start, and ways from there to views of points and home again. Also that worlds differ as they should.
 #include "scenes/wild/world.hpp"
 
 #include <gtest/gtest.h>
@@ -107,7 +107,7 @@ TEST_P(EveryWorld, FleetStartsAndTheExportFliesTheSame) {
   EXPECT_EQ(read.station_position, scenario_.station_position);
   ASSERT_EQ(read.fleet.size(), scenario_.fleet.size());
   for (std::size_t i = 0; i < read.fleet.size(); ++i) EXPECT_EQ(read.fleet[i].start, scenario_.fleet[i].start);
-  EXPECT_NO_THROW(Simulation(read, Scene(scene_), 0));  // starts are clear, and no UAV is shut in
+  EXPECT_NO_THROW(Simulation(read, Scene(scene_), 0));  // refuses starts that are not clear or have no way out
   std::filesystem::remove_all(folder);
 }
 

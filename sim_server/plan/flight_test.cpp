@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-TEST(PlanFlown, AtASmallSite) {
+TEST(PlanFlown, ScoresAsPlannedAtASmallSite) {
   const test::PlanSite site(3, 60.0);
   const Plan plan = make_plan(site.scenario, site.scene, site.config);
   const PlanFlight flown = fly_plan(site.scenario, site.scene, site.config, plan);
@@ -21,8 +21,8 @@ TEST(PlanFlown, AtASmallSite) {
   EXPECT_EQ(fly_plan(harsh, site.scene, site.config, plan), flown) << "an estimate is that of an ideal world";
 }
 
-/// A third of the mission: less is searched, and flown.
-TEST(PlanFlown, AtTheTowers) {
+/// Only a third of the mission, so that search and flight take less time.
+TEST(PlanFlown, ScoresAsPlannedAtTheTowers) {
   Scenario scenario = load_scenario(source_path("config/scenarios/towers.yaml"));
   scenario.duration_s = 200.0;
   const Scene scene = load_scene(scenario);

@@ -36,7 +36,7 @@ class PlanCache : public ::testing::Test {
   test::PlanSite site_;
 };
 
-TEST_F(PlanCache, OnlyWhatWasSearchedForIsFound) {
+TEST_F(PlanCache, FindsAPlanOnlyAfterItWasSearchedFor) {
   EXPECT_FALSE(ask(false).plan);
   const PlanReply first = ask(true), second = ask(false);
   ASSERT_TRUE(first.plan && second.plan);
@@ -56,7 +56,7 @@ TEST_F(PlanCache, ADamagedFileIsReplaced) {
   EXPECT_TRUE(ask(false).warnings.empty());
 }
 
-TEST_F(PlanCache, TheKeyChangesWithWhatAPlanDependsOn) {
+TEST_F(PlanCache, TheKeyChangesWithEachInputOfAPlan) {
   const std::vector<std::function<void()>> changes = {
       [&] { site_.scenario.duration_s += 1.0; },
       [&] { site_.scenario.station_position.x() += 1.0; },

@@ -17,7 +17,7 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kSearchNoise = 0.02;  ///< of the score: by as much a search may find less where more could be had
+constexpr double kSearchNoise = 0.02;  ///< share of the score by which a search may miss a better plan
 
 Plan plan_of(const test::PlanSite& site) { return make_plan(site.scenario, site.scene, site.config); }
 
@@ -30,7 +30,7 @@ const Plan& common_plan() {
   return plan;
 }
 
-/// By point: the best quality that the production camera has at the plan's pictures.
+/// For each point, the best quality that the production camera gives it in the plan's pictures.
 std::vector<float> pictures_of(const test::PlanSite& site, const Plan& plan) {
   std::vector<float> best(site.scene.points.size(), 0.0F);
   for (std::size_t i = 0; i < plan.uavs.size(); ++i) {
@@ -132,7 +132,7 @@ TEST(Plan, UavsKeepApart) {
         const TeamKind &kind_a = team.kinds[team.kind_of[a]], &kind_b = team.kinds[team.kind_of[b]];
         const double distance =
             (plan_state(kind_a, uavs[a].moves, t).p_WB - plan_state(kind_b, uavs[b].moves, t).p_WB).norm();
-        // Between two looks they come no nearer than they fly in that time.
+        // Between two samples, two UAVs approach by no more than the distance that they fly in that time.
         ASSERT_GE(distance, Schedule::least_distance(kind_a, kind_b) - 0.05 * (kind_a.speed + kind_b.speed)) << t;
       }
     }

@@ -36,12 +36,12 @@ class ActivityLogTest : public testing::Test {
   Scenario scenario_;
 };
 
-TEST_F(ActivityLogTest, HasALineForWhatIsNewAndNoNumbersThatDiffer) {
+TEST_F(ActivityLogTest, HasALineForEachNewActivityAndIgnoresChangedNumbers) {
   constexpr UavIndex kJurong{0}, kChangi{1};
   Simulation simulation(scenario_, {}, 0);
   const std::string head = "step,time_s,uav,mode,goal_x,goal_y,goal_z,waits_for,no_way\n";
   ActivityLog log(folder_, scenario_);
-  EXPECT_EQ(text(), head) << "a server that is killed leaves a table without rows";
+  EXPECT_EQ(text(), head) << "the log writes the table's head at once, also if the server is killed before any row";
   Activity activity{.mode = "takes off", .goal_W = Vector3d(1.0, 2.25, -0.5)};
   EXPECT_TRUE(log.add(simulation, kJurong, activity));
   EXPECT_TRUE(log.add(simulation, kChangi, {.mode = "on the ground", .waits_for = "jurong", .no_way = "no way"}));
@@ -49,7 +49,7 @@ TEST_F(ActivityLogTest, HasALineForWhatIsNewAndNoNumbersThatDiffer) {
   activity.speed_mps = 3.0;
   activity.undelivered = 2;
   activity.cpu_s = 1.5;
-  EXPECT_FALSE(log.add(simulation, kJurong, activity)) << "numbers alone";
+  EXPECT_FALSE(log.add(simulation, kJurong, activity)) << "only the numbers differ";
   activity.goal_W.reset();
   EXPECT_TRUE(log.add(simulation, kJurong, activity));
   EXPECT_FALSE(log.add(simulation, kJurong, activity));

@@ -255,7 +255,7 @@ TEST_F(RunFilesTest, APoseHasTheChargeWhereThereAreBatteries) {
   scenario_.conditions.battery = conditions_preset("harsh").battery;
   const auto [with_charge, charged_row, charge] = table();
   EXPECT_EQ(with_charge, columns + ",charge");
-  ASSERT_LT(charge, 0.999) << "it flies";
+  ASSERT_LT(charge, 0.999) << "a UAV in flight uses its battery";
   EXPECT_NEAR(std::stod(charged_row.substr(charged_row.rfind(',') + 1)), charge, 1e-4);
   EXPECT_EQ(charged_row.substr(0, charged_row.rfind(',')), row);
 }

@@ -20,7 +20,7 @@ auto wall_at(double x) {
 
 const AntennaNode kLeftNode{{0, 0, 5}, 0.2}, kRightNode{{20, 0, 5}, 0.1};
 
-TEST(AntennaLink, FreeSightIsALinkAndTakesOneRay) {
+TEST(AntennaLink, AFreeLineOfSightIsALinkAndTakesOneRay) {
   int rays = 0;
   const auto link = trace_link(kLeftNode, kRightNode, [&](const Vector3d&, const Vector3d&) -> std::optional<double> {
     ++rays;
@@ -31,13 +31,13 @@ TEST(AntennaLink, FreeSightIsALinkAndTakesOneRay) {
   EXPECT_EQ(rays, 1);
 }
 
-TEST(AntennaLink, WallBlocksAndTheRangeIsStillKnown) {
+TEST(AntennaLink, AWallBlocksTheLinkAndTheRangeIsStillKnown) {
   const auto link = trace_link(kLeftNode, kRightNode, wall_at(10));
   EXPECT_FALSE(link.linked);
   EXPECT_EQ(link.range, 20.0);
 }
 
-TEST(AntennaLink, WallRightBeforeTheEndDependsOnTheOrder) {
+TEST(AntennaLink, WhetherAWallRightBeforeOneEndBlocksDependsOnTheOrderOfTheNodes) {
   const auto wall = wall_at(19.85);
   EXPECT_TRUE(trace_link(kLeftNode, kRightNode, wall).linked);
   EXPECT_FALSE(trace_link(kRightNode, kLeftNode, wall).linked);
@@ -75,7 +75,7 @@ TEST(AntennaLink, OnlyTheLowestAntennaIsKeptAboveGround) {
   EXPECT_DOUBLE_EQ(points[4].z(), 0.25);
 }
 
-/// Two nodes on their way through clutter, and one that jumps about: the memory changes no answer.
+/// Two nodes that fly through clutter, and one that jumps about: with SightMemory, all answers are as without it.
 TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
   RandomStream random(1, "antenna_link_test", 0, 0);
   int linked = 0, blocked = 0;
@@ -102,8 +102,8 @@ TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
   EXPECT_GT(blocked, 500);
 }
 
-/// A crowd among walls, from the ground up: it makes no difference to look only at the bodies about a line.
-TEST(AntennaLink, CrowdIsSeenAsWithAllBodies) {
+/// A crowd among walls, from the ground up. It is enough to test the bodies near a line of sight.
+TEST(AntennaLink, InACrowdLinksAreAsIfAllBodiesWereTested) {
   RandomStream random(2, "antenna_link_test", 0, 0);
   constexpr std::size_t kCrowd = 70;
   RayScene world(test::random_triangles(30, 1), std::vector<BodyShape>(kCrowd, body_shape(VehicleConfig{})));

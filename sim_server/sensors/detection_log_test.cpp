@@ -61,7 +61,7 @@ TEST(DetectionLog, KeepsTheOrderOfDetectionAndTheBestScore) {
   EXPECT_GT(first_seen.size(), kPoints / 2);
 }
 
-TEST(DetectionLog, HandsOutWhatCapturesHaveShownOnce) {
+TEST(DetectionLog, HandsOutEachDetectionOnce) {
   RandomCamera camera(2);
   DetectionLog log;
   EXPECT_TRUE(log.take_seen().empty());

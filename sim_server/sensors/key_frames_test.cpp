@@ -43,9 +43,9 @@ void expect_kept(const char* what, const std::vector<Offer>& offers) {
   }
 }
 
-TEST(Keyframes, FirstScanAlways) { expect_kept("first", {{0.0, 0.0, 0.0, true}}); }
+TEST(Keyframes, TheFirstScanIsAlwaysOne) { expect_kept("first", {{0.0, 0.0, 0.0, true}}); }
 
-TEST(Keyframes, Age) {
+TEST(Keyframes, AScanMoreThanASecondLaterAndAwayFromOthersIsOne) {
   expect_kept("more than a second", {{0.0, 0.0, 0.0, true},
                                      {0.5, 9.0, 0.0, false},
                                      {1.0, 9.0, 0.0, false},  // exactly one second is not more
@@ -54,7 +54,7 @@ TEST(Keyframes, Age) {
                                      {2.2, 20.0, 0.0, true}});
 }
 
-TEST(Keyframes, Distance) {
+TEST(Keyframes, AScanMoreThanTwoMetresFromAllOthersIsOne) {
   expect_kept("more than two metres from the nearest", {{0.0, 0.0, 0.0, true},
                                                         {2.0, 1.9, 0.0, false},
                                                         {4.0, 2.0, 0.0, false},  // exactly two metres is not more
@@ -64,7 +64,7 @@ TEST(Keyframes, Distance) {
                                                         {12.0, 4.2, 0.0, true}});
 }
 
-TEST(Keyframes, YawOfAllNeighbours) {
+TEST(Keyframes, AScanTurnedFromAllItsNeighboursIsOne) {
   expect_kept("ten degrees from all, across the turn too",
               {{0.0, 0.0, 175.0, true},
                {2.0, 0.0, -176.0, false},  // nine degrees
@@ -115,7 +115,7 @@ TEST(UniformSampling, KeepsTheNearestToEachCentre) {
   EXPECT_EQ(sample_uniformly(cloud, 0.5), expected);
 }
 
-TEST(UniformSampling, HoweverFarApartPointsAreNoneIsTakenForAnother) {
+TEST(UniformSampling, CellsThatAreFarApartAreNotMixedUp) {
   RandomStream random(2, "keyframes_test", 0, 0);
   std::vector<Eigen::Vector3f> cloud;  // pairs in one cell each
   for (int i = 0; i < 600; ++i) {
@@ -129,7 +129,7 @@ TEST(UniformSampling, HoweverFarApartPointsAreNoneIsTakenForAnother) {
   EXPECT_EQ(sample_uniformly(cloud, 0.5), expected);
 }
 
-TEST(UniformSampling, EarlierPointWinsATie) {
+TEST(UniformSampling, OfTwoPointsAtTheSameDistanceTheEarlierStays) {
   const std::vector<Eigen::Vector3f> cloud = {{0.25F, 0.25F, 0.125F}, {0.25F, 0.25F, 0.375F}, {0.75F, 0.25F, 0.25F}};
   EXPECT_EQ(sample_uniformly(cloud, 0.5), (std::vector<Eigen::Vector3f>{cloud[0], cloud[2]}));
   EXPECT_TRUE(sample_uniformly({}, 0.5).empty());

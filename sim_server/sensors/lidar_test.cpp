@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kDeg = kRadPerDeg;
 
-TEST(ServoAngle, AsTheReference) {
+TEST(ServoAngle, IsAsInTheReference) {
   const LidarConfig config;
   struct Case {
     double t_s, angle_deg;
@@ -45,7 +45,7 @@ TEST(ServoAngle, AsTheReference) {
   }
 }
 
-/// Compares the closed form with a servo that moves tick by tick, and reaches both stops, one, or none.
+/// Compares the closed form with a servo that moves tick by tick. The servo reaches both stops, one, or none.
 TEST(ServoAngle, EqualsAServoThatMovesTickByTick) {
   for (const double limit_deg : {30.0, 60.0, 90.0, 120.0, 200.0}) {
     for (const double rate_deg_s : {10.0, 30.0, 45.0}) {
@@ -79,7 +79,7 @@ TEST(ServoAngle, HasTheRateOfServoRate) {
   }
 }
 
-TEST(Lidar, DueTenTimesASecond) {
+TEST(Lidar, IsDueTenTimesASecond) {
   const Lidar lidar(LidarConfig{}, UavIndex{0}, 0);
   int scans = 0;
   for (Tick tick = 0; tick < 10 * kTicksPerSecond; ++tick) {
@@ -221,8 +221,8 @@ TEST_F(LidarRoom, SeesOthersButNotItself) {
             5);
 }
 
-/// Noise lies along the beam, has the right size, depends on seed, UAV and scan, and on nothing else.
-TEST_F(LidarRoom, NoiseIsSeeded) {
+/// Noise acts along the beam, has the configured size, and depends only on seed, UAV and scan.
+TEST_F(LidarRoom, NoiseDependsOnSeedUavAndScan) {
   const RayScene world = room();
   LidarConfig config;
   config.servo_rate_deg_s = 0.0;  // so that the phase does not matter

@@ -12,7 +12,7 @@ namespace {
 constexpr Tick kScan = 40;  ///< ticks from one scan to the next
 constexpr UavIndex kUav{0};
 
-/// Whether so many of n draws may have come up that do with probability p: a false alarm is rarer than 1e-9.
+/// Checks that `count` of n draws is plausible for an event of probability p. A false alarm is rarer than 1e-9.
 void expect_binomial(std::size_t count, std::size_t n, double p) {
   const double mean = p * static_cast<double>(n);
   EXPECT_NEAR(static_cast<double>(count), mean, 7.0 * std::sqrt(mean * (1.0 - p)) + 1.0) << n << " of " << p;
@@ -28,7 +28,7 @@ std::vector<bool> first_ring(const LidarConfig& config, const std::vector<bool>&
   return {lost.begin(), lost.begin() + config.columns};
 }
 
-TEST(LostReturns, NoneUnlessAskedForAndWithSeedZero) {
+TEST(LostReturns, ThereAreNoneByDefaultNorWithSeedZero) {
   LidarConfig both = with_sectors({.share = 0.5, .width_deg = 20.0, .hold_s = 1.0});
   both.no_return_p = 0.5;
   for (LostReturns lost : {LostReturns(LidarConfig{}, kUav, 7), LostReturns(both, kUav, 0)}) {
@@ -38,7 +38,7 @@ TEST(LostReturns, NoneUnlessAskedForAndWithSeedZero) {
   EXPECT_TRUE(LostReturns(both, kUav, 7).any());
 }
 
-TEST(LostReturns, EachBeamForItself) {
+TEST(LostReturns, EachBeamIsLostIndependently) {
   constexpr Tick kScans = 300;
   for (const double p : {0.02, 0.3, 0.5}) {
     LidarConfig config;
@@ -54,7 +54,7 @@ TEST(LostReturns, EachBeamForItself) {
       for (std::size_t i = 0; i < now.size(); ++i) {
         count += now[i];
         of_beam[i] += now[i];
-        // Pairs without a common beam: they are independent draws.
+        // The pairs share no beam, so they are independent draws.
         with_next += i % 2 == 0 && now[i] && now[i + 1];
         with_next_ring += i / 440 % 2 == 0 && now[i] && now[i + 440];
         with_next_scan += scan % 2 == 1 && now[i] && before[i];
@@ -71,13 +71,13 @@ TEST(LostReturns, EachBeamForItself) {
 TEST(LostReturns, DependOnSeedUavAndScanAlone) {
   LidarConfig config = with_sectors({.share = 0.3, .width_deg = 20.0, .hold_s = 0.1});
   config.no_return_p = 0.3;
-  for (const double p : {0.0, 0.3}) {  // sectors alone, and both
+  for (const double p : {0.0, 0.3}) {  // only sectors, and sectors with single beams
     config.no_return_p = p;
     LostReturns lost(config, kUav, 5), again(config, kUav, 5), other_seed(config, kUav, 6),
         other_uav(config, UavIndex{1}, 5);
     const std::vector<bool> third = lost.of(3 * kScan);
     EXPECT_NE(third, lost.of(4 * kScan));
-    EXPECT_EQ(third, again.of(3 * kScan)) << "whatever was asked before";
+    EXPECT_EQ(third, again.of(3 * kScan)) << "the result does not depend on earlier calls";
     EXPECT_EQ(third, lost.of(3 * kScan));
     EXPECT_NE(third, other_seed.of(3 * kScan));
     EXPECT_NE(third, other_uav.of(3 * kScan));
@@ -108,12 +108,12 @@ TEST(LostReturns, SectorsHaveTheirWidthInAllRingsAndTheirShareOnAverage) {
         ASSERT_TRUE(std::equal(ring.begin(), ring.end(), beams.begin() + other * columns));
       }
       const auto blind = static_cast<std::size_t>(std::ranges::count(ring, true));
-      ASSERT_EQ(blind % static_cast<std::size_t>(width), 0U) << "whole sectors, none on another";
+      ASSERT_EQ(blind % static_cast<std::size_t>(width), 0U) << "sectors are whole and do not overlap";
       const std::size_t sectors = blind / static_cast<std::size_t>(width);
       ASSERT_TRUE(sectors == fewest || sectors == fewest + 1) << sectors;
       more += sectors - fewest;
       for (std::size_t column = 0; column < ring.size(); ++column) of_column[column] += ring[column];
-      // From a column that sees on, each run is made of whole sectors.
+      // Counted from a column that is not blind, each run of blind columns consists of whole sectors.
       const auto seeing = static_cast<std::size_t>(std::ranges::find(ring, false) - ring.begin());
       std::size_t run = 0;
       for (std::size_t i = 0; seeing < ring.size() && i <= ring.size(); ++i) {
@@ -145,7 +145,7 @@ TEST(LostReturns, SectorsStayForTheirTime) {
   EXPECT_EQ(all.size(), kHolds);
 }
 
-TEST(LostReturns, BothTogetherAreWhatEachWouldLose) {
+TEST(LostReturns, BothKindsTogetherLoseTheUnionOfWhatEachLoses) {
   LidarConfig beams, both = with_sectors({.share = 0.3, .width_deg = 20.0, .hold_s = 1.0});
   const LidarConfig sectors = both;
   beams.no_return_p = both.no_return_p = 0.3;

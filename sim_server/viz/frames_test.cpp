@@ -13,7 +13,7 @@
 namespace skein::sim::viz {
 namespace {
 
-/// As tf2 keeps them: by child, for a frame has one parent.
+/// The frames by child, as in tf2: each frame has one parent.
 class Tree {
  public:
   void add(const msg::TFMessage& frames) {
@@ -72,7 +72,7 @@ TEST(Frames, ComposeToThePoseOfTheCamera) {
 }
 
 // A UAV's own tree contains the pose that the UAV receives, not the true one, and no other UAV.
-TEST(OwnFrames, AreThoseThatTheUavIsToldOf) {
+TEST(OwnFrames, HaveThePosesThatTheUavIsTold) {
   RandomStream random(2, "frames", 0);
   UavConfig uav;
   uav.name = "jurong";

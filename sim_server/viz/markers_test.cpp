@@ -57,7 +57,7 @@ class Markers : public testing::Test {
         EXPECT_GE(part, 0.0F);
         EXPECT_LE(part, 1.0F);
       }
-      EXPECT_GT(colour.a(), 0.0F) << "or nothing is to be seen";
+      EXPECT_GT(colour.a(), 0.0F) << "a transparent marker is invisible";
     }
   }
   static Quaterniond from_message(const msg::Quaternion& q) { return {q.w(), q.x(), q.y(), q.z()}; }
@@ -68,7 +68,7 @@ class Markers : public testing::Test {
   RandomStream random_{1, "markers", 0};
 };
 
-// Just inside the corners the camera's own test sees a point, just outside of any of their borders it does not.
+// The camera's own test must accept points just inside the corners, and reject points just outside any border.
 TEST_F(Markers, FrustaEndWhereTheCameraStopsSeeing) {
   RulesConfig rules;
   for (int round = 0; round < kRounds; ++round) {
@@ -141,13 +141,14 @@ TEST_F(Markers, LinksAreThoseThatAreOpen) {
   expect_sound(link_marker(7, scenario_, views_, Links(kUavs + 1)));
 }
 
-TEST_F(Markers, TheFleetIsWhereItIs) {
+TEST_F(Markers, TheFleetIsDrawnWhereItIs) {
   move();
   const msg::MarkerArray array = fleet_markers(7, scenario_, views_);
   std::set<std::pair<std::string, int>> ids;
   for (const msg::Marker& marker : array.markers()) {
     expect_sound(marker);
-    EXPECT_TRUE(ids.emplace(marker.ns(), marker.id()).second) << "one would replace the other";
+    EXPECT_TRUE(ids.emplace(marker.ns(), marker.id()).second)
+        << "RViz replaces a marker by another one with the same name and number";
     EXPECT_EQ(marker.header().stamp(), to_time(7));
   }
   ASSERT_EQ(array.markers().size(), 2 * (kUavs + 1));
@@ -159,8 +160,8 @@ TEST_F(Markers, TheFleetIsWhereItIs) {
     EXPECT_EQ(name.text(), scenario_.fleet[i].name);
     EXPECT_GT(name.pose().position().z(), body.pose().position().z());
   }
-  EXPECT_NE(rgb(array.markers()[4].color()), rgb(array.markers()[6].color())) << "roles";
-  EXPECT_NE(rgb(array.markers()[2].color()), rgb(array.markers()[6].color())) << "out";
+  EXPECT_NE(rgb(array.markers()[4].color()), rgb(array.markers()[6].color())) << "the two roles differ in colour";
+  EXPECT_NE(rgb(array.markers()[2].color()), rgb(array.markers()[6].color())) << "a UAV that is out has another colour";
 }
 
 TEST_F(Markers, BoxesHaveTheirEdgesAndTheStructureItsTriangles) {

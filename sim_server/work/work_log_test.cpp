@@ -83,7 +83,7 @@ TEST_F(WorkLogTest, AUavThatFliesToAndFroWithoutAPictureIsFrozen) {
     start();
     fly(150.0, [&](double t) { return std::vector{hover(x, way * std::sin(pace * t), 8.0, std::numbers::pi)}; });
     EXPECT_GT(simulation_->uav(UavIndex{0}).distance_m, 50.0);
-    EXPECT_GE(judged()[0].frozen_s, 100u) << "of 150, less the way to the wall";
+    EXPECT_GE(judged()[0].frozen_s, 100u) << "of 150 s, less the time to fly to the wall";
     EXPECT_EQ(done(0), 0.0);
   }
 }
@@ -101,13 +101,13 @@ TEST_F(WorkLogTest, AUavThatPhotographsKnownPointsWorseIsFrozen) {
     EXPECT_GT(first, 1.0) << "the first pictures are work";
     const std::uint64_t captures = simulation_->uav(UavIndex{0}).captures;
     fly(120.0, [&](double t) { return std::vector{hover(9.0 - back, sway * std::sin(t), 8)}; });
-    EXPECT_GT(simulation_->uav(UavIndex{0}).captures, captures + 200) << "it photographs on";
+    EXPECT_GT(simulation_->uav(UavIndex{0}).captures, captures + 200) << "the UAV goes on to photograph";
     EXPECT_LT(done(0) - first, 1.0);
     EXPECT_GE(judged()[0].frozen_s, 90u);
   }
 }
 
-TEST_F(WorkLogTest, AUavThatPhotographsWhatAMateHasIsFrozen) {
+TEST_F(WorkLogTest, AUavThatPhotographsOnlyPointsOfItsMateIsFrozen) {
   add("photographer", 0, -3);
   add("photographer", 0, 3);
   add_patch(0, 8, 1);
@@ -120,7 +120,7 @@ TEST_F(WorkLogTest, AUavThatPhotographsWhatAMateHasIsFrozen) {
     return std::vector{hover(9.0 - 17.0 / 6.0 * to_post_s, -8, 8, turned), hover(t < 10.0 ? -8.0 : 8.5, 1, 8)};
   });
   EXPECT_GT(done(0), 1.0);
-  EXPECT_LT(done(1), 1.0) << "all that it takes is known, and no worse";
+  EXPECT_LT(done(1), 1.0) << "the mate's pictures of all its points are as good";
   EXPECT_GT(simulation_->uav(UavIndex{1}).captures, 200u);
   EXPECT_GE(judged()[1].frozen_s, 90u);
 }
@@ -158,13 +158,14 @@ TEST_F(WorkLogTest, SurfaceIsMappedOnceByMatesThatHearEachOther) {
   };
   fly(40.0, both(0.0));
   const double first = done(0) + done(1);
-  EXPECT_GT(first, 10.0) << "the wall, and what they see of it from a little higher and lower";
-  EXPECT_GT(std::max(done(0), done(1)), 2.0 * std::min(done(0), done(1)) + 1.0) << "the UAV that was first has it";
+  EXPECT_GT(first, 10.0) << "the first view of the wall, and a little more from higher and lower";
+  EXPECT_GT(std::max(done(0), done(1)), 2.0 * std::min(done(0), done(1)) + 1.0)
+      << "the UAV that mapped the wall first gets the credit";
   fly(40.0, both(1.0));
-  EXPECT_LT(done(0, 42) + done(1, 42), 0.2 * first) << "what is known is not work";
+  EXPECT_LT(done(0, 42) + done(1, 42), 0.2 * first) << "to map known surface again is not work";
 }
 
-TEST_F(WorkLogTest, NothingIsOpenForAUavThatMustTurnHome) {
+TEST_F(WorkLogTest, NoWorkIsOpenForAUavThatMustTurnHome) {
   add("photographer", 0, 0);
   add_patch(0, 10, 6, false);  // not in sight of the station
   scenario_.duration_s = 120.0;
@@ -173,7 +174,7 @@ TEST_F(WorkLogTest, NothingIsOpenForAUavThatMustTurnHome) {
   const std::string& seconds = log_->tracks()[0].open;
   const std::size_t last = seconds.find_last_of(WorkTrack::kOpen), end = seconds.find_last_not_of(WorkTrack::kAway);
   ASSERT_NE(last, std::string::npos);
-  // 45 m to the wall and 18 m home from there, at 4 m/s on ways half as long again, and 10 s.
+  // 45 m to the wall and 18 m home from there, with 50 % of detours, at 4 m/s, and 10 s.
   EXPECT_NEAR(static_cast<double>(end - last), 10.0 + 1.5 * 63.0 / 4.0, 5.0) << seconds;
 }
 
@@ -191,9 +192,10 @@ TEST_F(WorkLogTest, AUavWhoseProgramIsAwayIsNotCountedAndBeginsAnew) {
   fly(50.0, stand, member);
   const std::string& seconds = log_->tracks()[0].open;
   EXPECT_EQ(seconds.substr(71, 28), std::string(28, WorkTrack::kAway));
-  EXPECT_EQ(seconds.substr(101, 20).find(WorkTrack::kOpen), std::string::npos) << "it is given time to begin";
+  EXPECT_EQ(seconds.substr(101, 20).find(WorkTrack::kOpen), std::string::npos)
+      << "a UAV that has come back gets some time before work counts as open";
   EXPECT_EQ(seconds.back(), WorkTrack::kOpen);
-  EXPECT_EQ(judged()[0].frozen_s, 0u) << "neither life has a minute";
+  EXPECT_EQ(judged()[0].frozen_s, 0u) << "its program ran for less than a minute each time";
 }
 
 TEST_F(WorkLogTest, WorkThatNeedsAFailedCameraIsNotOpen) {

@@ -28,7 +28,7 @@ TEST(Workplaces, KeepTheirBerthAndShowTheirPointsInDrawnWorlds) {
       EXPECT_GE(place.q, Workplaces::kLeastQ);
       EXPECT_FALSE(rays.first_hit_distance(place.p_W, p_W + 0.05 * (place.p_W - p_W).normalized(), {.ground = false}));
     }
-    EXPECT_GT(3 * found, world.scene.points.size()) << "a third can be had in every wild world";
+    EXPECT_GT(3 * found, world.scene.points.size()) << "every wild world has workplaces for a third of its points";
   }
 }
 
