@@ -87,7 +87,7 @@ TEST(Topics, AUavReceivesOnlyWhatItsOwnSensorsAndItsRadioTell) {
   }
 }
 
-TEST(Topics, BothNamesOfTheTriggerAreThere) {
+TEST(Topics, TheTriggerHasBothItsNames) {
   std::set<std::string> names;
   for (const topics::TopicInfo& topic : topics::uav_topics()) names.insert(topics::wire(topic, "changi").name);
   EXPECT_TRUE(names.contains("rt/changi/command/camera_trigger"));

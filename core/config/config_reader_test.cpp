@@ -129,7 +129,7 @@ named: {x: 1, y: 2}
   EXPECT_EQ(config_to_yaml(parse(config_to_yaml(read))), config_to_yaml(read));
 }
 
-TEST(ConfigReader, SaysWhereAndWhatWouldBeRight) {
+TEST(ConfigReader, AnErrorNamesThePlaceAndACorrectValue) {
   EXPECT_EQ(complaint("small: 11"), "test:1: small: must be a whole number within [0, 10], not '11'");
   EXPECT_EQ(complaint("\n\nspace: [1, 2, -101]"), "test:3: space[2]: must be a number of at least -100, not '-101'");
   EXPECT_EQ(complaint("parts:\n  - name: a\n  - name: b\n    length_m: 0"),
@@ -151,7 +151,7 @@ TEST(ConfigReader, ATextInAnotherEncodingIsRefusedWithItsLine) {
   EXPECT_EQ(complaint("\xEF\xBB\xBF"
                       "flag: true\n"),
             "accepted")
-      << "a mark of the byte order";
+      << "a byte order mark is accepted";
 }
 
 TEST(ConfigReader, NumbersAreStrict) {
@@ -164,7 +164,7 @@ TEST(ConfigReader, NumbersAreStrict) {
   }
 }
 
-TEST(ConfigReader, TellsAllErrorsInTheOrderOfTheFile) {
+TEST(ConfigReader, ReportsAllErrorsInTheOrderOfTheFile) {
   EXPECT_EQ(complaint("real: x\nsmal: 1\nflag: 3"),
             "test:1: real: must be a number, not 'x'\n"
             "test:2: unknown key 'smal'; did you mean 'small'?\n"
@@ -174,7 +174,7 @@ TEST(ConfigReader, TellsAllErrorsInTheOrderOfTheFile) {
   EXPECT_TRUE(complaint(many).ends_with("\nand 20 more"));
 }
 
-/// Where the letter 'X' of the value of `text` is found to be.
+/// The place that the reader reports for the letter 'X' in the value of `text`.
 std::string place_of_x(const std::string& yaml) {
   const ConfigDocument document = parse_config_document(yaml, "test");
   ConfigErrors errors(document);
@@ -187,7 +187,7 @@ std::string place_of_x(const std::string& yaml) {
   return "";
 }
 
-// Letters are found where they stand, however YAML lets a text be written.
+// The reader finds a letter's line and column in all forms in which YAML texts can be written.
 TEST(ConfigReader, FindsALetterOfATextInItsLines) {
   for (const char* yaml : {"text: abX", "text:   a b   X c", "text: 'a X'", "text: \"a b X\"",
                            "flag: true\ntext: a\n   b\n     X c", "text: >\n  a b\n  c X\n", "text: |\n  a\n  X\n",
@@ -198,7 +198,7 @@ TEST(ConfigReader, FindsALetterOfATextInItsLines) {
     const std::size_t column = line_begin == std::string::npos ? at + 1 : at - line_begin;
     EXPECT_EQ(place_of_x(text), "test:" + std::to_string(line) + ":" + std::to_string(column) + ": text: here") << text;
   }
-  EXPECT_EQ(place_of_x("text: abc"), "test:1:10: text: here") << "behind the end";
+  EXPECT_EQ(place_of_x("text: abc"), "test:1:10: text: here") << "a text without the letter: the place behind its end";
 }
 
 TEST(ConfigReader, AnEmptyOptionalIsNone) {
@@ -227,12 +227,12 @@ TEST(ConfigReader, ReadsAssignmentsOfACommandLine) {
   }
 }
 
-TEST(ConfigWriter, QuotesWhatWouldReadAsSomethingElse) {
+TEST(ConfigWriter, QuotesTextsThatWouldBeReadAsSomethingElse) {
   for (const char* text : {"true", "12", "a: b", "- x", "-", "", "#", "it's \"so\"", "two\nlines", "a\ttab",
                            "back\\slash", "~", "null", "NULL", "---", "...", "Zürich", "/chat"}) {
     Everything value;
     value.text = text;
-    if (!std::strchr(text, '\n')) value.named = {{text, 1.0}};  // no key has lines
+    if (!std::strchr(text, '\n')) value.named = {{text, 1.0}};  // a key cannot contain line breaks
     const Everything again = parse(config_to_yaml(value));
     EXPECT_EQ(again.text, text);
     EXPECT_EQ(again.named, value.named) << text;

@@ -20,7 +20,7 @@ std::string network_refusal(const std::string& text, const std::vector<std::stri
   return "";
 }
 
-TEST(NetworkConfig, AWordIsAnInterfaceForAll) {
+TEST(NetworkConfig, AWordIsTheInterfaceOfAllDomains) {
   for (const char* text : {"all", "eth0", "10.1.2.3", "10.1.2.0/24"}) {
     const NetworkConfig network = read_network(text);
     EXPECT_EQ(network.of("world").interface, text);
@@ -31,7 +31,7 @@ TEST(NetworkConfig, AWordIsAnInterfaceForAll) {
   EXPECT_TRUE(read_network("host").of("world").host_only());
 }
 
-TEST(NetworkConfig, DomainsHaveTheirOwnAndTheRestTheUsualOne) {
+TEST(NetworkConfig, DomainsMayHaveSettingsOfTheirOwnAndOthersHaveTheDefault) {
   const std::string text = "{usual: eth9, world: {peers: [a, 10.0.0.7]}, jurong: {interface: eth1, peers: [b]}}";
   const auto file = std::filesystem::temp_directory_path() / ("network_" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(file) << "usual: eth9\nworld:\n  peers: [a, 10.0.0.7]\njurong: {interface: eth1, peers: [b]}\n";
@@ -41,10 +41,10 @@ TEST(NetworkConfig, DomainsHaveTheirOwnAndTheRestTheUsualOne) {
   EXPECT_EQ(network.of("world"), (DomainNetwork{"", {"a", "10.0.0.7"}}));
   EXPECT_EQ(network.of("jurong"), (DomainNetwork{"eth1", {"b"}}));
   EXPECT_EQ(network.of("raffles"), (DomainNetwork{"eth9", {}}));
-  EXPECT_FALSE(network.of("world").host_only()) << "peers are elsewhere";
+  EXPECT_FALSE(network.of("world").host_only()) << "a domain with peers reaches other hosts";
 }
 
-TEST(NetworkConfig, MistakesAreNamed) {
+TEST(NetworkConfig, ErrorsNameTheMistake) {
   EXPECT_EQ(network_refusal("{jurong: {peers: [a]}}"), "");
   EXPECT_NE(network_refusal("{jurnog: eth0}").find("did you mean 'jurong'"), std::string::npos)
       << network_refusal("{jurnog: eth0}");

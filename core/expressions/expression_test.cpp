@@ -48,7 +48,7 @@ class Expressions : public testing::Test {
   std::vector<SignalUse> signals_;
 };
 
-TEST_F(Expressions, ATightOneBindsBeforeALooseOne) {
+TEST_F(Expressions, OperatorsHaveTheirPrecedence) {
   EXPECT_TRUE(margin("1 + 2 * 3 == 7").holds);
   EXPECT_TRUE(margin("-2 - 3 == -5 and 8 / 2 / 2 == 2").holds);
   EXPECT_TRUE(margin("1 == 1 or 1 == 2 and 1 == 3").holds);
@@ -58,18 +58,19 @@ TEST_F(Expressions, ATightOneBindsBeforeALooseOne) {
   EXPECT_TRUE(margin("80 % == 0.8 and 180 deg > 3.14 rad and 2 kB == 2000 B and 36 km / 3600 s == 10 m/s").holds);
 }
 
-TEST_F(Expressions, AMarginIsTheWayToTheOpposite) {
+TEST_F(Expressions, AMarginIsTheDistanceToTheOppositeTruth) {
   EXPECT_DOUBLE_EQ(margin("separation > 2 m", 5.0).margin, 3.0);
   EXPECT_DOUBLE_EQ(margin("separation < 2 m", 5.0).margin, -3.0);
   EXPECT_DOUBLE_EQ(margin("held == 2", 5.0).margin, -3.0);
   EXPECT_DOUBLE_EQ(margin("held >= 5 and held < 7", 5.0).margin, 0.0);
   EXPECT_TRUE(margin("held >= 5 and held < 7", 5.0).holds);
-  EXPECT_DOUBLE_EQ(margin("alive(changi) and z(changi) > 0 m", 5.0).margin, 5.0) << "true by itself decides nothing";
+  EXPECT_DOUBLE_EQ(margin("alive(changi) and z(changi) > 0 m", 5.0).margin, 5.0)
+      << "a true condition without numbers has an infinite margin";
   EXPECT_EQ(margin("alive(changi)", 1.0).margin, INFINITY);
   EXPECT_EQ(margin("not alive(changi)", 1.0).margin, -INFINITY);
 }
 
-/// Conditions of random comparisons, and the same with the opposite written in another way.
+/// Conditions of random comparisons, each with its negation, which is written without `not`.
 struct Drawn {
   std::string text, opposite;
 };
@@ -89,7 +90,7 @@ Drawn drawn(std::mt19937_64& random, int depth) {
           "(" + a.opposite + (all ? ") or (" : ") and (") + b.opposite + ")"};
 }
 
-TEST_F(Expressions, TheSignOfAMarginIsTheTruthAndTheOppositeHasTheOpposite) {
+TEST_F(Expressions, TheSignOfAMarginIsTheTruthAndANegationChangesTheSign) {
   std::mt19937_64 random(1);
   int decided = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -107,7 +108,7 @@ TEST_F(Expressions, TheSignOfAMarginIsTheTruthAndTheOppositeHasTheOpposite) {
 }
 
 // Nothing that moves a signal by less than the margin changes the truth.
-TEST_F(Expressions, WithinTheMarginNothingChanges) {
+TEST_F(Expressions, AChangeBelowTheMarginKeepsTheTruth) {
   std::mt19937_64 random(2);
   for (int round = 0; round < 2000; ++round) {
     const Expression condition = parse(drawn(random, 3).text);
@@ -170,7 +171,7 @@ TEST_F(Expressions, EachSignalHasOneSlot) {
   EXPECT_EQ(signals_[0].arguments, (std::vector<std::string>{"", "gcs", "/plan"}));
 }
 
-TEST_F(Expressions, VariablesAndParametersStandForWhatTheyAreSet) {
+TEST_F(Expressions, VariablesAndParametersHaveTheValuesGiven) {
   scope_.variables = {{"u", "changi"}};
   scope_.parameters = {{"least", {5.0, kMetres}}};
   EXPECT_TRUE(margin("z(u) > least", 6.0).holds);
@@ -178,7 +179,7 @@ TEST_F(Expressions, VariablesAndParametersStandForWhatTheyAreSet) {
   refused("held(u) > least", 10, "units do not fit");
 }
 
-TEST_F(Expressions, WrongOnesAreRefusedWhereTheyAreWrong) {
+TEST_F(Expressions, WrongExpressionsAreRefusedWithTheColumn) {
   refused("", 0, "a signal, a number or '('");
   refused("separatoin > 1 m", 0, "did you mean 'separation'?");
   refused("separation > 1", 13, "write a unit behind the number");
@@ -220,7 +221,7 @@ TEST_F(Expressions, LongChainsAreReadAndLongerOnesRefused) {
   }
 }
 
-TEST_F(Expressions, WhileARunGoesOnOnlyWhatIsKnownThenMayBeNamed) {
+TEST_F(Expressions, DuringARunOnlySignalsKnownThenMayBeNamed) {
   scope_.live_only = true;
   for (const SignalInfo& info : signal_table()) {
     try {

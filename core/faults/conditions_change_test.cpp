@@ -55,11 +55,11 @@ TEST_F(ConditionsChanges, HoldFromTheirBeginToTheirEnd) {
   const ConditionsConfig now = at(15.0);
   EXPECT_EQ(now.wind.mean_mps, 12.0);
   EXPECT_EQ(now.lidar.clutter_p, 0.001);
-  EXPECT_EQ(now.wind.turbulence, scenario_.conditions.wind.turbulence) << "it is not named";
+  EXPECT_EQ(now.wind.turbulence, scenario_.conditions.wind.turbulence) << "the fault does not change the turbulence";
   EXPECT_EQ(now.camera.exposure_factor, scenario_.conditions.camera.exposure_factor);
 }
 
-TEST_F(ConditionsChanges, OfOneValueTheLastInTheFileWins) {
+TEST_F(ConditionsChanges, OfTwoChangesOfAValueTheLaterInTheFileWins) {
   load(
       "  - {at_s: 10, until_s: 30, conditions: {wind: {mean_mps: 12, turbulence: 2}}}\n"
       "  - {at_s: 5, until_s: 20, conditions: {wind: {mean_mps: 8}, radio: {power_dbm: 0}}}\n");
@@ -98,7 +98,7 @@ TEST_F(ConditionsChanges, AreRefusedWithTheKeyAndWhatWouldBeRight) {
   refused("fix_loss: raffles", "raffles");
   refused("battery_loss: {uav: changi, charge: 1}", "within [0, 0.999]");
   EXPECT_THROW(load("  - {at_s: 1, fix_loss: changi}\n  - {at_s: 2, fix_loss: changi}\n"), InputError)
-      << "both at once";
+      << "both faults act at once";
 }
 
 TEST_F(ConditionsChanges, NeedTheirPartInTheScenario) {
@@ -106,7 +106,8 @@ TEST_F(ConditionsChanges, NeedTheirPartInTheScenario) {
   refused("conditions: {wind: {mean_mps: 9}}", "faults[0].conditions.wind: is off in the scenario");
   refused("conditions: {preset: harsh}", "is off in the scenario");
   refused("conditions: {radio: {power_dbm: 3}}", "faults[0].conditions.radio: is off in the scenario");
-  EXPECT_NO_THROW(load("  - {at_s: 1, conditions: {wind: {body_drag_area_m2: 0.1}}}\n")) << "it acts in gusts";
+  EXPECT_NO_THROW(load("  - {at_s: 1, conditions: {wind: {body_drag_area_m2: 0.1}}}\n"))
+      << "the drag area has an effect in gusts";
   refused("fix_loss: changi", "--conditions odometry=breezy");
   refused("battery_loss: {uav: changi, charge: 0.3}", "--conditions battery=breezy");
   load("  - {at_s: 1, conditions: {lidar: {reflectivity: 0.2}, camera: {exposure_factor: 4}}}\n");

@@ -104,7 +104,8 @@ TEST_F(FaultFile, MayBeAFaultTestAndMayNameAnother) {
   ASSERT_EQ(plan.faults.size(), 1u);
   EXPECT_EQ(fault_target(plan.faults[0]), "changi");
   std::filesystem::copy_file(file_, other, std::filesystem::copy_options::overwrite_existing);
-  EXPECT_THROW(load("faults: ./" + other.filename().string()), InputError) << "one that names another itself";
+  EXPECT_THROW(load("faults: ./" + other.filename().string()), InputError)
+      << "the named file must not name a third one";
   std::filesystem::remove(other);
   ::unsetenv("SKEIN_CONFIG_DIR");
 }
@@ -142,7 +143,7 @@ TEST_F(FaultFile, TimesMayBeDrawnByTheSeed) {
   refused("faults: [{at_s: 1, until_s: [2, 9], blackout: changi}, {at_s: [8, 12], blackout: changi}]", "contradicts");
 }
 
-TEST_F(FaultFile, WrongOnesAreRefusedWithLineAndKey) {
+TEST_F(FaultFile, WrongFaultsAreRefusedWithLineAndKey) {
   refused("faults: [{at_s: 1, blackout: changy}]",
           ":1: faults[0].blackout: there is no UAV 'changy'; did you mean 'changi'?");
   refused("faults:\n  - {at_s: 1, kill: router}", ":2: faults[0].kill: there is no program 'router'");
@@ -180,7 +181,8 @@ TEST_F(FaultFile, FaultsThatCanNeverActAreRefused) {
   refused("faults: [{at_s: 1e-9, until_s: 2e-9, blackout: changi}]", "faults[0].until_s: must be at least 0.0025 s");
   EXPECT_NO_THROW(load("faults: [{at_s: 10, until_s: 10.01, blackout: changi}]"));
   EXPECT_NO_THROW(load("faults: [{at_s: 10.04, until_s: 10.06, blackout: changi}]"));
-  EXPECT_NO_THROW(load("faults: [{when: held > 1, for_s: 0.01, blackout: changi}]")) << "it begins with an exchange";
+  EXPECT_NO_THROW(load("faults: [{when: held > 1, for_s: 0.01, blackout: changi}]"))
+      << "the fault begins with an exchange, so it acts";
   for (const char* nothing : {"{}", "{loss: 0}", "{from: jurong}", "{latency_s: 0, topics: [/plan]}",
                               "{reordering: {probability: 0, delay_s: 1}}"}) {
     refused(std::string("faults: [{at_s: 1, link: ") + nothing + "}]", "faults[0].link: changes nothing: give");
@@ -193,11 +195,11 @@ TEST_F(FaultFile, FaultsThatCanNeverActAreRefused) {
   refused("faults: [{at_s: 1, partition: [[], [gcs]]}]", "faults[0].partition: must have no empty group");
   const std::string everybody = joined(fleet().uav_names());
   refused("faults: [{at_s: 1, partition: [[gcs, " + everybody + "]]}]", "faults[0].partition: changes nothing");
-  EXPECT_NO_THROW(load("faults: [{at_s: 1, partition: [[" + everybody + "]]}]")) << "it cuts gcs off";
+  EXPECT_NO_THROW(load("faults: [{at_s: 1, partition: [[" + everybody + "]]}]")) << "this partition cuts gcs off";
   refused("faults: [{at_s: 1, link: {from: [changi, changi], loss: 1}}]", "link.from: 'changi' is named twice");
 }
 
-TEST_F(FaultFile, OfARunThatWasFlownTimesGoOnToItsEnd) {
+TEST_F(FaultFile, TimesInARunThatWasFlownMayGoOnToItsEnd) {
   const double end_s = 300.0 + fleet().takeoff_timeout_s;
   const std::string late = "faults: [{at_s: 300.05, until_s: 310, blackout: changi}]";
   EXPECT_EQ(load("by_hand: true\n" + late).faults[0].begin(), ticks(300.05));
@@ -206,7 +208,7 @@ TEST_F(FaultFile, OfARunThatWasFlownTimesGoOnToItsEnd) {
   EXPECT_TRUE(load("by_hand: true\nfaults: []").empty());
 }
 
-TEST_F(FaultFile, ALengthMayStandInPlaceOfTheEnd) {
+TEST_F(FaultFile, ADurationMayReplaceTheEnd) {
   const std::string text = "faults: [{at_s: [8, 12], for_s: [2, 3], blackout: changi}]";
   load(text);
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
@@ -219,7 +221,7 @@ TEST_F(FaultFile, ALengthMayStandInPlaceOfTheEnd) {
   refused("faults: [{at_s: 8, for_s: 2, blackout: changi}, {at_s: 9, blackout: changi}]", "contradicts");
 }
 
-TEST_F(FaultFile, AWaitingFaultActsFromWhenItIsSetOff) {
+TEST_F(FaultFile, AWaitingFaultActsFromTheTimeAtWhichItIsSetOff) {
   const FaultPlan plan = load(
       "faults: [{when: held(changi) >= 3, for_s: 2, blackout: changi}, {when: time > 1 s, at_s: 5, until_s: 9, "
       "blackout: jurong}]");
@@ -232,7 +234,7 @@ TEST_F(FaultFile, AWaitingFaultActsFromWhenItIsSetOff) {
     EXPECT_TRUE(fault.active(begin));
     EXPECT_TRUE(fault.active(begin + ticks(2.0) - 1));
     EXPECT_FALSE(fault.active(begin + ticks(2.0)));
-    EXPECT_FALSE(fault.may_begin(begin)) << "once";
+    EXPECT_FALSE(fault.may_begin(begin)) << "a fault begins only once";
   }
   Fault bounded = plan.faults[1];
   EXPECT_FALSE(bounded.may_begin(ticks(5.0) - 1));

@@ -16,7 +16,7 @@
 namespace skein {
 namespace {
 
-TEST(WriteWhole, WritesAllOrTellsTheReason) {
+TEST(WriteWhole, WritesAllOrReportsTheReason) {
   const ScratchFolder scratch;
   const std::filesystem::path file = scratch.path() / "file";
   std::mt19937 random(1);
@@ -24,7 +24,7 @@ TEST(WriteWhole, WritesAllOrTellsTheReason) {
     const std::size_t size = random() % 1000, room = random() % 1000;
     const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     ASSERT_GE(fd, 0);
-    errno = ENOENT;  // of another call, long ago
+    errno = ENOENT;  // an old error of another call
     bool whole = false;
     int reason = 0;
     {

@@ -9,7 +9,7 @@
 namespace skein {
 namespace {
 
-/// Bits whose 63 bits before the sign are a fraction in (0, 1).
+/// Bits of which the upper 63 represent this fraction in (0, 1); the lowest one is the sign.
 std::uint64_t bits_of(double fraction) { return static_cast<std::uint64_t>(std::ldexp(fraction, 63)) << 1; }
 
 TEST(NormalTable, TailsHaveTheirProbabilities) {
@@ -22,7 +22,7 @@ TEST(NormalTable, TailsHaveTheirProbabilities) {
   }
 }
 
-/// Sums over a fine grid of all probabilities: no draws, hence no noise.
+/// The test sums over a fine grid of all probabilities instead of draws, so that there is no noise.
 TEST(NormalTable, HasTheNormalsMoments) {
   const NormalTable& normal = NormalTable::get();
   double mass = 0.0, squares = 0.0, fourths = 0.0, sixths = 0.0;
@@ -76,7 +76,7 @@ TEST(NormalTable, IsMonotonicAndSymmetric) {
   EXPECT_NEAR(normal(~std::uint64_t{1}), 0.0, 1e-12);
 }
 
-/// The same on each machine: runs that were recorded must repeat.
+/// The numbers must be the same on each machine, so that recorded runs repeat.
 TEST(NormalTable, KeepsItsNumbers) {
   const NormalTable& normal = NormalTable::get();
   EXPECT_EQ(normal(0x123456789abcdef0), 0x1.ce0771d19a201p+0);

@@ -25,7 +25,7 @@ TEST(BlockLayout, DescribesFieldsAsNumPyNeedsThem) {
 }
 
 /// Random layouts: a value written to a field is read from this field, and changes no other.
-TEST(BlockLayout, FieldsDoNotMeet) {
+TEST(BlockLayout, FieldsDoNotOverlap) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "block layout", 0);
     BlockLayout layout;

@@ -43,13 +43,13 @@ TEST_F(HandFileTest, NumbersComeBackToTheBit) {
     EXPECT_EQ(read[i].step, rows[i].step);
     EXPECT_EQ(read[i].tick, rows[i].tick);
     EXPECT_EQ(read[i].command, rows[i].command) << text;
-    EXPECT_TRUE(std::signbit(read[i].command.velocity.z())) << "a zero's sign is a bit, too";
+    EXPECT_TRUE(std::signbit(read[i].command.velocity.z())) << "the sign of a zero must be kept, too";
   }
 }
 
-TEST_F(HandFileTest, WithoutACommandNothingIsWanted) { EXPECT_TRUE(hand_file::read(write(hand_file::head())).empty()); }
+TEST_F(HandFileTest, AFileWithoutCommandsIsEmpty) { EXPECT_TRUE(hand_file::read(write(hand_file::head())).empty()); }
 
-TEST_F(HandFileTest, AnEditorOnWindowsMayHaveSavedIt) {
+TEST_F(HandFileTest, AFileSavedOnWindowsIsRead) {
   std::string text = hand_file::head() + "20,400,1,0,0,0,0,0.5\n40,800,0,0,0,0,0,0\n";
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
   const std::vector<HandRow> rows = hand_file::read(write(text));

@@ -8,7 +8,7 @@
 namespace skein {
 namespace {
 
-TEST(PythonSpec, FileClassAndParametersAreToldApart) {
+TEST(PythonSpec, FileClassAndParametersAreSeparated) {
   EXPECT_EQ(python_spec("py:a.py"), (PythonSpec{"a.py", "", ""}));
   EXPECT_EQ(python_spec("py:dir.d/a.py:Orbit"), (PythonSpec{"dir.d/a.py", "Orbit", ""}));
   EXPECT_EQ(python_spec("py:a.py:x=1,y=2"), (PythonSpec{"a.py", "", "x=1,y=2"}));

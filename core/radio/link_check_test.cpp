@@ -1,5 +1,5 @@
-// Effects in a scenario's `radio.links` that change nothing, or name nodes that are not there. fault_plan_test.cpp has
-// those of faults.
+// Effects in a scenario's `radio.links` that change nothing, or name unknown nodes. fault_plan_test.cpp tests
+// the effects of faults.
 #include "core/radio/link_check.hpp"
 
 #include <gtest/gtest.h>

@@ -52,7 +52,7 @@ std::string routes_complaint(const std::vector<RadioTopicConfig>& declared) {
 
 TEST(RadioRoutes, CapturesAndAcknowledgementsAreAlwaysThere) {
   const std::vector<RadioRoute> routes = radio_routes(three_uavs());
-  ASSERT_EQ(routes.size(), 10U) << "and those of /plan";
+  ASSERT_EQ(routes.size(), 10U) << "these and the routes of /plan";
   for (const UavIndex uav : FirstUavs(3)) {
     const RadioRoute& report = routes[2 * uav];
     const RadioRoute& ack = routes[2 * uav + 1];
@@ -71,9 +71,9 @@ TEST(RadioRoutes, CapturesAndAcknowledgementsAreAlwaysThere) {
   EXPECT_EQ(routes[1].targets[0].topic, topics::captures_ack_at_uav("jurong").name);
 }
 
-TEST(RadioRoutes, PlannersCanTalkUnlessTheScenarioRulesIt) {
+TEST(RadioRoutes, AllNodesCanSendPlansUnlessTheScenarioDeclaresThePlanTopic) {
   EXPECT_EQ(routes_of(three_uavs(), "/plan").size(), 4U) << "all to all";
-  EXPECT_EQ(routes_of(Scenario(), "/plan").size(), 0U) << "nobody to talk to";
+  EXPECT_EQ(routes_of(Scenario(), "/plan").size(), 0U) << "without UAVs, nobody can talk";
   Scenario restricted = three_uavs();
   restricted.radio = {{"/plan", "std_msgs/msg/String", {"jurong"}, {"sentosa"}}};
   EXPECT_EQ(routes_of(restricted, "/plan").size(), 1U);
@@ -125,7 +125,8 @@ TEST(RadioRoutes, TheScoreNeverGoesOnTheRadio) {
       EXPECT_THROW(table.arrival(node, name, cloud), InputError) << name << " at node " << node;
     }
   }
-  EXPECT_EQ(routes_complaint({{"/score", cloud, {"gcs"}, {"all"}}}), "") << "a name of one's own";
+  EXPECT_EQ(routes_complaint({{"/score", cloud, {"gcs"}, {"all"}}}), "")
+      << "without the station's prefix the name is free";
 }
 
 TEST(RadioRoutes, NothingArrivesUnderTheNameOfTheScore) {
@@ -246,7 +247,7 @@ TEST(RadioTable, RefusalsSayWhyAndChangeNothing) {
     EXPECT_NE(said.find(w.reason), std::string::npos) << w.name << ": " << said;
     EXPECT_EQ(said.empty(), w.reason.empty()) << said;
   }
-  EXPECT_EQ(table.routes().size(), before + 2) << "these made sense";
+  EXPECT_EQ(table.routes().size(), before + 2) << "the table has only the valid routes";
   EXPECT_THROW(table.arrival(Node{1}, "/note", "some/msg/Other"), InputError);
   EXPECT_NO_THROW(table.arrival(Node{1}, "/not_yet", "some/msg/Other"));
 }
@@ -255,12 +256,13 @@ TEST(RadioTable, ARouteThatIsClosedFreesItsNamesAndType) {
   const Scenario scenario = three_uavs();
   RadioTable table(scenario);
   const std::size_t note = table.open(Node{1}, "/note", "some/msg/Note", {"sentosa", "gcs"});
-  EXPECT_NE(refusal(table, Node{3}, "/note/sentosa", "some/msg/Note", {"gcs"}), "") << "what arrives has this name";
+  EXPECT_NE(refusal(table, Node{3}, "/note/sentosa", "some/msg/Note", {"gcs"}), "")
+      << "a message that arrives has this name";
   table.close(note);
   EXPECT_TRUE(table.routes()[note].targets.empty());
   EXPECT_EQ(refusal(table, Node{3}, "/note/sentosa", "some/msg/Note", {"gcs"}), "");
   EXPECT_NO_THROW(table.arrival(Node{2}, "/note", "some/msg/Other"));
-  EXPECT_EQ(table.open(Node{1}, "/note", "some/msg/Other", {"raffles"}), note) << "it keeps its number";
+  EXPECT_EQ(table.open(Node{1}, "/note", "some/msg/Other", {"raffles"}), note) << "the route keeps its number";
   EXPECT_EQ(table.routes()[note].type, "some::msg::dds_::Other_");
   EXPECT_EQ(arrivals(table.routes()[note]), std::vector<std::string>{"rt/note/raffles"});
 }

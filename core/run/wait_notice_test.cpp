@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::seconds;
 
-TEST(WaitNotice, SpeaksAfterFiveSecondsAndThenLessAndLess) {
+TEST(WaitNotice, SpeaksAfterFiveSecondsAndThenLessAndLessOften) {
   const WaitNotice::Clock::time_point start{};
   WaitNotice notice(start);
   std::vector<double> told;
@@ -19,7 +19,7 @@ TEST(WaitNotice, SpeaksAfterFiveSecondsAndThenLessAndLess) {
   EXPECT_EQ(told, (std::vector<double>{5, 10, 20, 40, 80}));
 }
 
-TEST(WaitNotice, ACallerThatLooksLateHearsOnce) {
+TEST(WaitNotice, ACallerThatAsksLateIsToldOnce) {
   const WaitNotice::Clock::time_point start{};
   WaitNotice notice(start);
   EXPECT_EQ(notice.left(start + seconds(1)), seconds(4));

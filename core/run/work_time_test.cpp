@@ -34,7 +34,8 @@ std::vector<bool> frozen(const WorkTime& time) {
   return seconds;
 }
 
-/// All windows of 60 open seconds of each life. Work between two open seconds is the earlier one's.
+/// Goes through all windows of 60 open seconds, separately for each life of the program. Work done between two open
+/// seconds belongs to the earlier one.
 std::vector<bool> frozen_by_windows(const WorkTrack& track) {
   std::vector<bool> marked(track.open.size(), false);
   std::vector<std::size_t> open;
@@ -43,7 +44,7 @@ std::vector<bool> frozen_by_windows(const WorkTrack& track) {
     for (std::size_t from = 0; from + kWorkWindow_s <= open.size(); ++from) {
       double sum = 0.0;
       for (std::size_t i = from; i < from + kWorkWindow_s; ++i) sum += done[i];
-      // Of the last open second, only the work done by then counts.
+      // Of the last open second, only the work done up to this second counts.
       const std::size_t last = open[from + kWorkWindow_s - 1];
       sum += track.done[last] - done[from + kWorkWindow_s - 1];
       for (std::size_t i = from; sum < 1.0 - 1e-9 && i < from + kWorkWindow_s; ++i) marked[open[i]] = true;
@@ -63,7 +64,7 @@ std::vector<bool> frozen_by_windows(const WorkTrack& track) {
   return marked;
 }
 
-TEST(WorkTime, OfDrawnRecordsIsThatOfAllWindows) {
+TEST(WorkTime, AgreesWithASearchThroughAllWindows) {
   std::size_t some = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(1, "work_time", draw);
@@ -76,10 +77,10 @@ TEST(WorkTime, OfDrawnRecordsIsThatOfAllWindows) {
     some += time.frozen_s > 0;
   }
   EXPECT_GT(some, 10u);
-  EXPECT_LT(some, kDraws - 5u) << "both kinds were drawn";
+  EXPECT_LT(some, kDraws - 5u) << "records of both kinds were drawn";
 }
 
-TEST(WorkTime, NothingOpenIsNeverFrozen) {
+TEST(WorkTime, AUavWithoutOpenWorkIsNeverFrozen) {
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(2, "work_time", draw);
     WorkTrack track = drawn_track(random, 300, 0.01);
@@ -154,7 +155,7 @@ TEST(WorkTime, AUavThatWaitsForAMateThatStandsIsFrozen) {
   }
 }
 
-TEST(WorkTime, OddRecordsAreTakenAsFarAsTheyGo) {
+TEST(WorkTime, OddRecordsAreReadAsFarAsTheyMakeSense) {
   EXPECT_TRUE(judge_work({}, {}).empty());
   const std::vector<WorkTrack> tracks = {{"11-", {0.0}}, {"", {1.0, 1.0}}};
   const std::vector<std::vector<WaitSpan>> spans = {

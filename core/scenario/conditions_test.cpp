@@ -33,7 +33,7 @@ class ConditionsFile : public ::testing::Test {
   const std::filesystem::path file_ = folder_.path() / "windy.yaml";
 };
 
-TEST_F(ConditionsFile, AreNoneByDefaultAndLeaveNoTraceInWhatIsPrinted) {
+TEST_F(ConditionsFile, AreOffByDefaultAndNotPrintedThen) {
   const Scenario scenario = load("");
   EXPECT_FALSE(scenario.conditions.on());
   EXPECT_EQ(conditions_text(scenario.conditions), "none");
@@ -80,14 +80,14 @@ TEST_F(ConditionsFile, TheOptionReplacesWholeSections) {
   const ConditionsConfig some = load(file, "wind=harsh+odometry=breezy").conditions;
   EXPECT_EQ(some.wind.mean_mps, conditions_preset("harsh").wind.mean_mps);
   EXPECT_EQ(some.odometry.horizontal_sigma_m, conditions_preset("breezy").odometry.horizontal_sigma_m);
-  EXPECT_EQ(some.battery.endurance_missions, 2.0) << "the file's own stays";
+  EXPECT_EQ(some.battery.endurance_missions, 2.0) << "the section of the file stays";
   EXPECT_EQ(conditions_text(conditions_preset("breezy")), "breezy");
 }
 
 TEST(LidarSigma, IsThatOfTheConditionsPage) {
   const LidarConditions breezy = conditions_preset("breezy").lidar;
   EXPECT_NEAR(lidar_sigma_m(breezy, 20.0, 0.0), 0.020, 1e-12);
-  EXPECT_NEAR(lidar_sigma_m(breezy, 20.0, 1.0), 0.025, 1e-12);  // 1 and 0.75 mm per metre
+  EXPECT_NEAR(lidar_sigma_m(breezy, 20.0, 1.0), 0.025, 1e-12);  // the noise grows by 1 and 0.75 mm per metre
   EXPECT_EQ(lidar_sigma_m(breezy, 20.0, 1e9), lidar_sigma_m(breezy, 20.0, kMostTanIncidence));
   EXPECT_TRUE(LidarConditions{.divergence_mrad = 1.0}.on());
 }

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with files that goes away again.
+/// A temporary folder with files.
 class ScenarioReader : public ::testing::Test {
  protected:
   ScenarioReader() {
@@ -107,7 +107,7 @@ TEST_F(ScenarioReader, PresetsDifferWhereTheirSourcesDo) {
     EXPECT_FALSE(rules.collision_kills_both);
   }
   for (const RulesConfig& rules : rules_presets()) {
-    EXPECT_TRUE(rules.own_body_hides) << "it is physics";
+    EXPECT_TRUE(rules.own_body_hides) << "a matter of physics, so it is in all presets";
     EXPECT_EQ(rules.takeoff_height_m, 0.1);
     EXPECT_EQ(rules.takeoff_speed_mps, 0.1);
   }
@@ -256,7 +256,7 @@ TEST_F(ScenarioReader, AFleetMayBeOfAnotherSize) {
     for (std::size_t i = 0; i < uavs; ++i) {
       EXPECT_EQ(fleet[i].name, i < 5 ? whole[i].name : whole[i - 5].name + "2");
       EXPECT_EQ(fleet[i].vehicle.role, whole[i % 5].vehicle.role);
-      EXPECT_EQ(fleet[i].start, more[i].start) << "in a fleet of any size";
+      EXPECT_EQ(fleet[i].start, more[i].start) << "a UAV starts at the same place in fleets of any size";
     }
   }
   for (const auto& [uavs, reason] :
@@ -299,7 +299,7 @@ TEST_F(ScenarioReader, StartsAreAsFarApartAsTheTwoBodiesNeed) {
   }
 }
 
-TEST_F(ScenarioReader, PrintsWhatItReads) {
+TEST_F(ScenarioReader, APrintedScenarioReadsBackTheSame) {
   const std::string radio =
       "radio: {topics: [{name: /chat, type: std_msgs/msg/String, sources: all, targets: [gcs, changi]}]}\n";
   const Scenario read = load_scenario(scenario("{family: towers, scene_seed: 4}", radio), options_);
@@ -316,7 +316,8 @@ TEST_F(ScenarioReader, HelpsWithAMistypedScenario) {
   EXPECT_NE(complaint("distrit").find("did you mean 'district'?"), std::string::npos);
   EXPECT_NE(complaint("./none.yaml").find("none.yaml: no such scenario file"), std::string::npos);
   EXPECT_NE(complaint("").find("no scenario is called ''"), std::string::npos);
-  EXPECT_NE(complaint("distrikt").find("did you mean 'district'?"), std::string::npos) << "it has no file";
+  EXPECT_NE(complaint("distrikt").find("did you mean 'district'?"), std::string::npos)
+      << "a family without a file is suggested, too";
   EXPECT_NE(complaint("wild").find("have no file here; write one with `skein scene wild "), std::string::npos);
 }
 
@@ -340,7 +341,7 @@ TEST_F(ScenarioReader, UavsDoNotHaveTheNamesOfProgramsAndNodes) {
   }
 }
 
-TEST_F(ScenarioReader, AMissingStartIsAllThatIsSaidOfIt) {
+TEST_F(ScenarioReader, AMissingStartIsTheOnlyErrorReportedForAUav) {
   write("o.stl", "");
   const std::string file =
       write("s.yaml",
@@ -369,7 +370,7 @@ TEST_F(ScenarioReader, AFileThatIsMissingIsLookedForWhereItsPathSays) {
   EXPECT_NE(missing.find((folder_ / "data/models/own.stl").string() + "; --assets"), std::string::npos) << missing;
 }
 
-// An algorithm whose time grows with the square of the file's length would take minutes.
+// A reader whose time grew with the square of the file's length would take minutes.
 TEST_F(ScenarioReader, LargeFilesAreReadOrRefusedInTheTimeThatTheirLengthTakes) {
   const std::string head = "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet: [{name: a, vehicle: explorer}]\n";
   std::string topics = head + "radio:\n  topics:\n";

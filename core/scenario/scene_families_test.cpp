@@ -43,7 +43,7 @@ TEST(SceneFamilies, StartsOfEverySeedAreApartNearTheNominalOnesAndRepeatable) {
   }
 }
 
-TEST(SceneFamilies, VariedSeedsChangePlacesAndSometimesCrowd) {
+TEST(SceneFamilies, VariedSeedsChangeStartsAndSometimesCrowdThem) {
   for (const SceneFamily& family : scene_families()) {
     int elsewhere = 0, crowded = 0;
     for (std::uint64_t seed = kVariedSeeds; seed < kVariedSeeds + 200; ++seed) {
@@ -72,7 +72,7 @@ TEST(SceneFamilies, AreFoundByName) {
   EXPECT_EQ(find_scene_family("tower"), nullptr);
 }
 
-TEST(SceneFamilies, AWrongNameIsAllThatIsSaidOfAScene) {
+TEST(SceneFamilies, AWrongFamilyIsTheOnlyErrorReportedForAScene) {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "s.yaml";
   for (const std::string family : {"tower", "district"}) {

@@ -29,7 +29,7 @@ TEST(CameraQuality, ResolutionIsJustMetAtTheResolutionDistance) {
   EXPECT_NEAR(*look(2.0 * d, 0, ResolutionRule::contest).q_res, 0.5, 1e-6);
 }
 
-TEST(CameraQuality, SearchRadiusOfTheContest) {
+TEST(CameraQuality, TheSearchRadiusIsThatOfTheContest) {
   EXPECT_NEAR(search_radius({}, 2.0), 15.50, 0.005);
   EXPECT_NEAR(search_radius({}, 1.5), 12.87, 0.01);
   EXPECT_NEAR(search_radius({}, 1.0), 10.25, 0.005);
@@ -47,7 +47,7 @@ TEST(CameraQuality, TheSearchRadiusIsASwitch) {
   const auto p_C = paper.view({20, 0, 0});
   ASSERT_TRUE(p_C);
   EXPECT_NEAR(paper.score(*p_C, {-1, 0, 0})->score(), d / 20.0, 1e-6);
-  EXPECT_FALSE(paper.view({-20, 0, 0})) << "behind it is behind it";
+  EXPECT_FALSE(paper.view({-20, 0, 0})) << "no rule lets a camera see behind itself";
 }
 
 TEST(CameraQuality, MoreThanOnePixelOfMotionBlurs) {
@@ -125,7 +125,7 @@ TEST(CameraQuality, DistanceAndTiltAreTheTwoPartsOfTheResolution) {
   }
 }
 
-/// Exposures of 2^-10 s and coordinates of few digits: all that the formulas compute on the way to 0 / 0 is exact.
+/// With exposures of 2^-10 s and coordinates of few digits, the formulas compute everything up to 0 / 0 exactly.
 TEST(CameraQuality, AQualityThatTheFormulasLeaveUndefinedNeverPasses) {
   RandomStream random(2, "camera_quality_test", 0);
   const auto draw = [&](int until) { return std::floor(random.uniform(-1.0, 1.0) * until) / 16.0; };

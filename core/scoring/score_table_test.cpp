@@ -50,7 +50,7 @@ Mission random_mission(std::uint64_t key) {
   return mission;
 }
 
-/// The rule word by word: of all captures that count, the best; earlier before later, then fleet order.
+/// The rule literally: of all captures that count, the best; of equal ones the earliest, then the first in fleet order.
 std::vector<PointTally> brute_force(const Mission& mission, const RulesConfig& rules) {
   std::vector<PointTally> best(kPoints);
   for (const CaptureReport& report : mission.captures) {
@@ -83,7 +83,7 @@ void expect_tally(const ScoreTable& table, const std::vector<PointTally>& expect
   EXPECT_EQ(table.score(), std::accumulate(found.begin(), found.end(), 0.0));
 }
 
-TEST(ScoreTable, LikeBruteForce) {
+TEST(ScoreTable, AgreesWithBruteForce) {
   for (const bool voids : {true, false}) {
     RulesConfig rules;
     rules.collision_voids_score = voids;
@@ -101,7 +101,7 @@ TEST(ScoreTable, LikeBruteForce) {
   }
 }
 
-/// Deliveries come in any order, some twice, collisions anywhere between; and the changes told rebuild the tally.
+/// Reports come in any order, some twice, with collisions between them. The reported changes alone give the same tally.
 TEST(ScoreTable, OrderAndRepetitionDoNotMatter) {
   const RulesConfig rules;
   for (std::uint64_t key = 1; key <= 30; ++key) {
@@ -120,7 +120,7 @@ TEST(ScoreTable, OrderAndRepetitionDoNotMatter) {
               ? table.collide(UavIndex(mission.collided[event]))
               : table.add(mission.captures[(event - mission.collided.size()) % mission.captures.size()]);
       for (const TallyChange& change : changes) {
-        EXPECT_NE(rebuilt[change.point], change.now) << "told without a change";
+        EXPECT_NE(rebuilt[change.point], change.now) << "the table reported a change that was none";
         rebuilt[change.point] = change.now;
       }
       ASSERT_EQ(rebuilt, table.points());
@@ -160,7 +160,7 @@ TEST(ScoreTable, APointOfTooLowAQualityIsNotDetected) {
   EXPECT_FLOAT_EQ(static_cast<float>(table.score()), 0.25F);
 }
 
-TEST(ScoreTable, RefusesWhatDoesNotExist) {
+TEST(ScoreTable, RefusesUnknownUavsAndPoints) {
   ScoreTable table(2, 3, RulesConfig{});
   EXPECT_THROW(table.add({UavIndex{2}, 0, 0, 0, {}}), std::out_of_range);
   EXPECT_THROW(table.add({UavIndex{0}, 0, 0, 0, {{0, 1.0F, 1.0F, 1.0F}, {3, 1.0F, 1.0F, 1.0F}}}), std::out_of_range);

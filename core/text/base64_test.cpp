@@ -28,7 +28,7 @@ TEST(Base64, ReadsWhatItWrote) {
   }
 }
 
-TEST(Base64, RefusesWhatIsNone) {
+TEST(Base64, RefusesTextsThatAreNotBase64) {
   for (const char* text : {"Z", "Zg", "Zg=", "Zg=a", "Z===", "====", "Zm9v\n", "Zm 9", "Zm9_", "=Zm9"}) {
     EXPECT_EQ(read_base64(text), std::nullopt) << text;
   }

@@ -5,7 +5,7 @@
 namespace skein {
 namespace {
 
-TEST(NumberChecks, SayInAFewWordsWhatIsWrong) {
+TEST(NumberChecks, NameTheMistakeInAFewWords) {
   for (const char* good : {"1", "0.5", "1e3"}) EXPECT_EQ(check_positive(good), "") << good;
   for (const char* bad : {"0", "-1", "x", "", "nan", "inf", "1e999", "1x"}) {
     const std::string wrong = check_positive(bad);

@@ -13,7 +13,7 @@ std::string hex_of_bytes(const std::string& text) {
   return Sha256().add(std::span<const std::uint8_t>(bytes)).hex();
 }
 
-TEST(Sha256, KnowsTheStandardsExamples) {  // FIPS 180-4
+TEST(Sha256, AgreesWithTheExamplesOfItsStandard) {  // FIPS 180-4
   EXPECT_EQ(hex_of_bytes(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_EQ(hex_of_bytes("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
@@ -33,7 +33,7 @@ TEST(Sha256, DifferentFieldsDiffer) {
   EXPECT_NE(Sha256().add(Vector3d(1, 2, 3)).hex(), Sha256().add(Vector3d(1, 3, 2)).hex());
 }
 
-TEST(Sha256, GoesOnAfterADigest) {
+TEST(Sha256, MayBeContinuedAfterADigest) {
   Sha256 running;
   running.add("first");
   const std::string after_first = running.hex();

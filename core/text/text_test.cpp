@@ -47,7 +47,7 @@ TEST(Text, NumbersAreAsPrintfHasThem) {
   }
 }
 
-TEST(Text, NothingHasNoSignAndWholeNumbersNoPoint) {
+TEST(Text, ZeroHasNoSignAndWholeNumbersHaveNoPoint) {
   EXPECT_EQ(fixed(-0.001, 1), "0.0");
   EXPECT_EQ(fixed(-0.5, 1), "-0.5");
   EXPECT_EQ(fixed_at_most(-0.001, 1), "0");
@@ -56,7 +56,7 @@ TEST(Text, NothingHasNoSignAndWholeNumbersNoPoint) {
   EXPECT_EQ(number_text(0.1 + 0.2), "0.3");
 }
 
-TEST(Text, OnlyWholeNumbersAndNothingElseAreRead) {
+TEST(Text, OnlyTextsThatAreAWholeNumberAreRead) {
   EXPECT_EQ(parse_number("-1.5e3"), -1500.0);
   for (const char* text : {"", "+1", " 1", "1 ", "0x10", "nan", "inf", "1e999", "1,5", "one"}) {
     EXPECT_FALSE(parse_number(text)) << text;
@@ -120,7 +120,7 @@ TEST(Text, InvalidUtf8IsShownAsQuestionMarks) {
   }
 }
 
-TEST(Text, LongTextsAreQuotedShortAndInWholeLetters) {
+TEST(Text, LongTextsAreQuotedShortenedWithoutCuttingALetter) {
   EXPECT_EQ(shortened("orbit"), "orbit");
   EXPECT_EQ(shortened(std::string(100000, 'a')), std::string(80, 'a') + "...");
   EXPECT_EQ(shortened(std::string(79, 'a') + "ä" + std::string(9, 'a')), std::string(79, 'a') + "...");

@@ -15,7 +15,7 @@ bool json_holds(const std::string& text) try {
   return false;
 }
 
-TEST(Utf8, IsWhatJsonHolds) {
+TEST(Utf8, IsValidIfJsonCanRepresentIt) {
   const std::vector<std::string> parts = {"a",        "\xe9",         "\xc3\xa9",         "\xff",     "\xe2\x80\xa8",
                                           "\xc0\x80", "\xed\xa0\x80", "\xf0\x9f\x98\x80", "\xf4\x90", "\x80"};
   std::mt19937 draw(1);
@@ -30,7 +30,7 @@ TEST(Utf8, IsWhatJsonHolds) {
   EXPECT_LT(valid, 1800);
 }
 
-TEST(Utf8, FirstBytesCutThroughNoCharacter) {
+TEST(Utf8, FirstBytesNeverCutACharacter) {
   const std::string text = "a\xc3\xa9\xf0\x9f\x98\x80";  // of 1, 2 and 4 bytes
   const std::vector<std::size_t> lengths = {0, 1, 1, 3, 3, 3, 3, 7, 7};
   for (std::size_t most = 0; most < lengths.size(); ++most) {

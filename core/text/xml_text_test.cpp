@@ -13,11 +13,11 @@ pugi::xml_document parsed(const std::string& text) {
   return document;
 }
 
-TEST(XmlText, ReadsBackWhateverTheText) {
+TEST(XmlText, AnyTextReadsBackTheSame) {
   std::mt19937 random(11);
   const std::string alphabet = "ab \n&<>\"';#/]=ü";
   for (int i = 0; i < 2000; ++i) {
-    std::string text = "x";  // a text of white space alone is none
+    std::string text = "x";  // the parser drops texts that are only white space
     for (unsigned n = random() % 12; n > 0; --n) text += alphabet[random() % (alphabet.size() - 2)];
     text += random() % 2 ? "ü" : "";
     pugi::xml_document document;

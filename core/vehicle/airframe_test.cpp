@@ -62,13 +62,13 @@ TEST(Airframe, TurningPartsHaveTheMomentumAndEnergyOfTheWhole) {
       energy += 0.5 * part.mass * v.squaredNorm() + 0.5 * w.dot(part.inertia.cwiseProduct(w));
     }
     EXPECT_NEAR(whole.mass_kg, mass, 1e-12);
-    EXPECT_LT(momentum.norm(), 1e-12) << "what turns about its centre of mass goes nowhere";
+    EXPECT_LT(momentum.norm(), 1e-12) << "a body that turns about its centre of mass has no linear momentum";
     EXPECT_LT((whole.I_BBcm_B * w - angular_momentum).norm(), 1e-12);
     EXPECT_NEAR(0.5 * w.dot(whole.I_BBcm_B * w), energy, 1e-12);
   }
 }
 
-TEST(Airframe, OneBodyIsJustThatBody) {
+TEST(Airframe, AVehicleOfOneBodyHasTheMassAndInertiaOfThatBody) {
   const VehicleConfig vehicle;
   const MassProperties whole = mass_properties(vehicle);
   EXPECT_EQ(whole.mass_kg, vehicle.mass_kg);

@@ -63,7 +63,7 @@ TEST(RotorPower, FallsWithForwardSpeedAndRisesWithClimb) {
   const double c = 3.0 / (2.0 * h);
   EXPECT_NEAR(induced_velocity(5.7, 0.1257, 0.0, 3.0), h * (-c + std::sqrt(c * c + 1.0)), 1e-9);
   EXPECT_EQ(ideal_power(0.0, 0.1257, 3.0, 1.0), 0.0);
-  EXPECT_EQ(ideal_power(5.7, 0.0, 0.0, -9.0), 0.0) << "it gives no power back";
+  EXPECT_EQ(ideal_power(5.7, 0.0, 0.0, -9.0), 0.0) << "a descending rotor returns no power";
 }
 
 TEST(RotorPower, TheDefaultEfficiencyIsThatOfAMatrice300) {
