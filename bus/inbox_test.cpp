@@ -80,7 +80,7 @@ TEST_F(InboxTest, WorkFromAnotherThreadRunsInTheWaitingOne) {
   }
 }
 
-TEST_F(InboxTest, SilentSamplesWaitForThoseThatRing) {
+TEST_F(InboxTest, SilentSamplesWaitForSamplesThatRing) {
   Inbox inbox(0);
   std::vector<int> got;
   const auto note = [&got](Sample&& sample) { got.push_back(sample.payload[4]); };
@@ -95,11 +95,11 @@ TEST_F(InboxTest, SilentSamplesWaitForThoseThatRing) {
   EXPECT_FALSE(inbox.ready(2));
   EXPECT_TRUE(inbox.dispatch(kPatience, 1));
   EXPECT_EQ(got, (std::vector<int>{1, 2}));
-  EXPECT_FALSE(inbox.ready()) << "what was handed out still counts";
+  EXPECT_FALSE(inbox.ready()) << "samples that were handed out still count";
   inbox.post([] {});
-  EXPECT_TRUE(inbox.dispatch(kPatience, 2)) << "posted work waited for samples";
+  EXPECT_TRUE(inbox.dispatch(kPatience, 2)) << "posted work must not wait for samples";
   silent->write(payload(3));
-  EXPECT_TRUE(inbox.dispatch(0ms, 1)) << "at the end of its time it hands out what there is";
+  EXPECT_TRUE(inbox.dispatch(0ms, 1)) << "after the timeout, dispatch() hands out the samples that are there";
   EXPECT_EQ(got.back(), 3);
 }
 
@@ -123,7 +123,7 @@ TEST_F(InboxTest, NoRingIsLostWhileOthersAreHandled) {
         }
       });
     const int all = kRounds / (kThreads * 2) * kThreads;
-    // Never more at once than are sure to come: a lost ring would cost all patience.
+    // Waits for no more samples than are sure to come, so a lost ring would use up all of kPatience.
     while (rung < all && inbox.dispatch(kPatience, static_cast<std::size_t>(std::min(3, all - rung)))) {
     }
     while (heard < all && inbox.dispatch(kPatience)) {
@@ -144,7 +144,7 @@ TEST_F(InboxTest, AJobPostedByAHandlerRunsInTheNextDispatch) {
   EXPECT_EQ(ran, 1);
 }
 
-TEST_F(InboxTest, ExceptionOfAHandlerLosesNothing) {
+TEST_F(InboxTest, AnExceptionOfAHandlerLosesNothing) {
   Inbox inbox(0);
   std::vector<int> got;
   inbox.post([&got] { got.push_back(1); });
@@ -155,7 +155,7 @@ TEST_F(InboxTest, ExceptionOfAHandlerLosesNothing) {
   EXPECT_EQ(got, (std::vector<int>{1, 3}));
 }
 
-TEST_F(InboxTest, NothingArrivesForAReaderThatIsGone) {
+TEST_F(InboxTest, AReaderThatIsGoneReceivesNothing) {
   Inbox inbox(0);
   int got = 0;
   auto reader = inbox.subscribe(*here_, topic("a"), [&got](Sample&&) { ++got; });
@@ -192,7 +192,7 @@ TEST_F(InboxTest, SamplesOfManyThreadsAllArriveInOrder) {
   EXPECT_EQ(next.size(), static_cast<std::size_t>(kThreads));
 }
 
-TEST_F(InboxTest, ChaosReordersButNeverWithinAStream) {
+TEST_F(InboxTest, ChaosReordersSamplesButNotWithinAStream) {
   constexpr int kWriters = 4, kTopics = 3, kSamples = 200;
   for (const unsigned seed : {1u, 2u, 3u}) {
     Inbox inbox(seed);

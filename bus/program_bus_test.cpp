@@ -45,9 +45,9 @@ TEST(ProgramBus, ALimitThatIsTooLowIsRefusedBeforeAVendorEndsTheProgram) {
         << refusal;
     EXPECT_NE(refusal.find("`ulimit -n " + std::to_string(ample_open_files(kDomains)) + "`"), std::string::npos)
         << refusal;
-    EXPECT_EQ(said(dds, true), "accepted") << "a program that only checks may fly elsewhere";
+    EXPECT_EQ(said(dds, true), "accepted") << "a program that only checks options may fly on another host";
   }
-  EXPECT_EQ(said("inproc", false), "accepted") << "it has no sockets";
+  EXPECT_EQ(said("inproc", false), "accepted") << "the bus inside a process needs no sockets";
 }
 
 }  // namespace

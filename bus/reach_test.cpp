@@ -20,7 +20,7 @@
 
 namespace {
 
-/// Stands before the system's resolver: names of no host get no answer before so many have been asked for.
+/// Replaces the system's resolver. Unknown names get no answer before so many of them have been asked for.
 struct Resolver {
   std::mutex mutex;
   std::condition_variable asked_more;
@@ -77,7 +77,7 @@ class ReachTest : public testing::Test {
   const std::shared_ptr<spdlog::logger> before_;
 };
 
-TEST_F(ReachTest, APeerThatIsKnownCountsAndOneThatIsNotIsNamed) {
+TEST_F(ReachTest, AKnownPeerIsUsedAndAnUnknownOneIsNamed) {
   const auto own = own_address();
   if (!own) GTEST_SKIP() << "this host has no address but the loopback's";
   std::mt19937 random{std::random_device{}()};
@@ -93,32 +93,32 @@ TEST_F(ReachTest, APeerThatIsKnownCountsAndOneThatIsNotIsNamed) {
     network.peers.insert(network.peers.end(), unknown.begin(), unknown.end());
     std::ranges::shuffle(network.peers, random);
     log_.str("");
-    const Reach reach = find_reach(network, "world", milliseconds(0), asked);  // no time to ask anybody
+    const Reach reach = find_reach(network, "world", milliseconds(0), asked);  // leaves no time to ask the resolver
     EXPECT_EQ(reach.address, address_text(*own));
     EXPECT_EQ(reach.peers, std::vector<std::string>{address_text(*own)});
     EXPECT_FALSE(reach.host_only);
     for (const std::string& name : unknown) EXPECT_NE(log_.str().find(name), std::string::npos) << log_.str();
     EXPECT_EQ(log_.str().empty(), unknown.empty()) << log_.str();
     EXPECT_EQ(log_.str().find("me.invalid"), std::string::npos) << log_.str();
-    EXPECT_EQ(resolver.asked, 0) << "what was asked already is asked again";
+    EXPECT_EQ(resolver.asked, 0) << "the names that were looked up before are looked up again";
   }
 }
 
-// An answer that the resolver could never give.
+// The earlier answer is one that the resolver could never give.
 TEST_F(ReachTest, AnAddressThatWasLookedUpBeforeIsNotLookedUpAgain) {
   const Addresses asked = {{"localhost", address_of(kAnothers)}};
   const auto source = source_towards(address_of(kAnothers));
   if (!source) GTEST_SKIP() << "this host has no way to other networks";
   const Reach reach = find_reach({.interface = "", .peers = {"localhost"}}, "world", milliseconds(0), asked);
   EXPECT_EQ(reach.peers, std::vector<std::string>{kAnothers});
-  EXPECT_EQ(reach.address, address_text(*source)) << "from where packets to that peer leave";
+  EXPECT_EQ(reach.address, address_text(*source)) << "the address from which packets to that peer leave";
 }
 
-TEST_F(ReachTest, WithoutAnyPeerThatIsKnownTheOwnAddressIsNot) {
+TEST_F(ReachTest, WithoutAKnownPeerTheOwnAddressIsUnknown) {
   const DomainNetwork network{.interface = "", .peers = {"a.invalid", "b.invalid"}};
   try {
     find_reach(network, "jurong", milliseconds(0), Addresses{});
-    FAIL() << "nobody could know";
+    FAIL() << "nothing tells the own address";
   } catch (const std::runtime_error& error) {
     for (const char* word : {"jurong", "a.invalid", "b.invalid", "interface"}) {
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
@@ -132,12 +132,12 @@ TEST_F(ReachTest, AnInterfaceTellsTheOwnAddressWithoutPeers) {
   const DomainNetwork network{.interface = address_text(*own), .peers = {"a.invalid"}};
   const Reach reach = find_reach(network, "world", milliseconds(0), Addresses{});
   EXPECT_EQ(reach.address, address_text(*own));
-  EXPECT_TRUE(reach.by_peers()) << "still no multicast";
+  EXPECT_TRUE(reach.by_peers()) << "with peers, there is still no multicast";
   EXPECT_THROW(check_interface({.interface = "no_such0", .peers = {}}, "world"), InputError);
 }
 
-// One after the other, each would wait for the others that are not asked for yet.
-TEST_F(ReachTest, NamesAreLookedUpAtOnceAndEachOnce) {
+// If the names were looked up one after the other, each look-up would wait for those that have not begun.
+TEST_F(ReachTest, NamesAreLookedUpInParallelAndEachOnce) {
   std::vector<std::string> hosts = {"127.0.0.1", "127.0.0.1", "10.1.2.3"};
   resolver.awaited = 4;
   for (int i = 0; i < 2 * resolver.awaited; ++i) {
@@ -145,7 +145,7 @@ TEST_F(ReachTest, NamesAreLookedUpAtOnceAndEachOnce) {
   }
   const Addresses addresses = look_up_all(hosts);
   EXPECT_EQ(resolver.asked, resolver.awaited);
-  EXPECT_EQ(resolver.alone, 0) << "waited for the others in vain";
+  EXPECT_EQ(resolver.alone, 0) << "a look-up waited in vain for the others";
   ASSERT_EQ(addresses.size(), 2u);
   for (const auto& [host, address] : addresses) EXPECT_EQ(address_text(address), host);
 }

@@ -31,7 +31,7 @@ class LogText {
   std::shared_ptr<spdlog::logger> former_;
 };
 
-TEST(Unsent, CountsEachAndTellsOnceATopic) {
+TEST(Unsent, CountsEachSampleAndLogsOneLinePerTopic) {
   const LogText log;
   Unsent unsent;
   EXPECT_EQ(unsent.count(), 0U);

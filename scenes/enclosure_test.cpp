@@ -32,7 +32,7 @@ TriangleMesh join(std::vector<OrientedBox> boxes) {
   return all;
 }
 
-TEST(Enclosure, OpenGroundIsOpen) {
+TEST(Enclosure, OpenGroundIsNotEnclosed) {
   EXPECT_FALSE(is_enclosed(RayScene(TriangleMesh{}), kStart));
   EXPECT_FALSE(is_enclosed(RayScene(join({upright({10, 0, 5}, {4, 4, 10})})), kStart));
 }
@@ -45,7 +45,7 @@ TEST(Enclosure, ARoomIsClosedWhereverItsFloorIs) {
   }
 }
 
-TEST(Enclosure, WindingAndDoubleSheetsDoNotMatter) {
+TEST(Enclosure, WindingAndDoubleSheetsDoNotChangeTheAnswer) {
   TriangleMesh mesh = room(10.0, -1.0, 4.0);
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 2) std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
   EXPECT_TRUE(is_enclosed(RayScene(mesh), kStart));
@@ -71,7 +71,7 @@ TEST(Enclosure, TheSameHallWithItsDoorShutIsClosed) {
   EXPECT_TRUE(is_enclosed(RayScene(hall), {-8, -8, 0.16}));
 }
 
-/// Corridors of 2.7 x 3 m side by side along x, under a roof. Each opens to the next at one of its ends, by turns.
+/// Corridors of 2.7 x 3 m side by side along x, under a roof. Each has an opening to the next, at alternate ends.
 /// @param open  whether the last one has no wall at its far side.
 TriangleMesh maze(int corridors, double length, bool open) {
   constexpr double kPitch = 3.0, kThick = 0.3, kHeight = 3.0;

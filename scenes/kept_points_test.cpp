@@ -63,7 +63,7 @@ TEST_F(KeptPoints, AreThoseThatWouldBeDrawn) {
   }
 }
 
-TEST_F(KeptPoints, AreAskedForByAllThatTheyDependOn) {
+TEST_F(KeptPoints, HaveAKeyOfAllThatTheyDependOn) {
   const UnsampledScene scene = draw();
   sampled_or_kept(scene, cache_);
   std::vector<UnsampledScene> others(5, scene);
@@ -98,7 +98,7 @@ TEST_F(KeptPoints, AreDrawnAnewWhereTheFileIsDamaged) {
   }
 }
 
-TEST_F(KeptPoints, AreDrawnWhereNothingCanBeKept) {
+TEST_F(KeptPoints, AreDrawnIfTheCacheCannotBeWritten) {
   std::ofstream(cache_) << "a file in the folder's place";
   const UnsampledScene scene = draw();
   expect_same(sampled_or_kept(scene, cache_), sampled(scene));

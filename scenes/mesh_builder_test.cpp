@@ -41,21 +41,21 @@ Isometry3d somewhere() {
   return X;
 }
 
-TEST(MeshBuilder, Box) {
+TEST(MeshBuilder, ABoxIsClosedAndHasItsVolume) {
   MeshBuilder builder;
   builder.add_box(somewhere(), {2, 3, 4});
   EXPECT_TRUE(is_closed(builder.mesh()));
   EXPECT_NEAR(volume(builder.mesh()), 24.0, 1e-3);
 }
 
-TEST(MeshBuilder, ChamferedPrism) {
+TEST(MeshBuilder, AChamferedPrismIsClosedAndHasItsVolume) {
   MeshBuilder builder;
   builder.add_prism(somewhere(), rectangle({1, 2}, {6, 4}, 0.5), -1.0, 2.0);
   EXPECT_TRUE(is_closed(builder.mesh()));
   EXPECT_NEAR(volume(builder.mesh()), 3.0 * (24.0 - 4 * 0.5 * 0.25), 1e-3);
 }
 
-TEST(MeshBuilder, CylinderAndMemberInAnyDirection) {
+TEST(MeshBuilder, CylindersAndMembersAreClosedAndHaveTheirVolumeInAnyDirection) {
   for (const Vector3d& way : {Vector3d(0, 0, 5), Vector3d(0, 0, -5), Vector3d(3, -4, 0), Vector3d(1, 2, 3)}) {
     MeshBuilder cylinder, member;
     cylinder.add_cylinder({1, 1, 1}, Vector3d(1, 1, 1) + way, 0.5, 64);

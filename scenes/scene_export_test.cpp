@@ -93,7 +93,7 @@ TEST_F(SceneExport, OfficialScenesReadBackBitForBit) {
 
 TEST_F(SceneExport, HasTheBenchmarksLayout) {
   Scenario scenario = scenario_of("towers", 0);
-  scenario.name = "a b/c";  // no part of a path
+  scenario.name = "a b/c";  // a name that cannot be part of a path
   Scene scene;
   scene.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
   scene.points = {{{1, 2, 3}, {0, 0, 1}}};
@@ -129,9 +129,10 @@ TEST_F(SceneExport, AnEarlierExportStaysUnlessToldOtherwise) {
   write_export(files, folder_, true);
   EXPECT_TRUE(fs::exists(folder_ / "x" / "a"));
   EXPECT_EQ(fs::file_size(folder_ / "b"), 3u);
-  EXPECT_NO_THROW(write_export(files, folder_, false)) << "the same command again loses nothing";
+  EXPECT_NO_THROW(write_export(files, folder_, false)) << "to write the same export again loses nothing";
   write("b", "own");
-  EXPECT_THROW(write_export(files, folder_, false), InputError) << "another one of the same size";
+  EXPECT_THROW(write_export(files, folder_, false), InputError)
+      << "the other export has files of the same size, but not the same content";
   EXPECT_THROW(write_export({{"b/c", "", "below a file"}}, folder_, false), InputError);
 }
 

@@ -33,7 +33,7 @@ TEST(SceneSource, UnknownFamilyIsRefusedWithTheKnownOnes) {
   }
 }
 
-TEST(SceneSource, FilesOfTheBenchmark) {
+TEST(SceneSource, TheBenchmarksFilesAreLoaded) {
   const char* assets = std::getenv("SKEIN_ASSETS");
   if (!assets) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   const auto folder = std::filesystem::path(assets) / "models" / "crane";

@@ -14,7 +14,7 @@ Scene scene_with(std::vector<Eigen::Vector3f> positions) {
   return scene;
 }
 
-TEST(SceneWarnings, NothingToSayWhenEveryPointIsInABox) {
+TEST(SceneWarnings, ThereIsNoneWhenEveryPointIsInABox) {
   const Eigen::Vector3f corner = (rotation_z(0.5) * Vector3d(1.99, 0.99, 0.0)).cast<float>();
   EXPECT_TRUE(scene_warnings(scene_with({{0, 0, 0}, {corner.x(), corner.y(), 1}, {1, 1, 12}})).empty());
 }

@@ -53,14 +53,14 @@ TEST(SurfaceSampling, PointsAreSpreadEvenly) {
   for (const int count : on_face) EXPECT_NEAR(count, 100, 15);
 }
 
-TEST(SurfaceSampling, OnlyInsideTheBoxes) {
+TEST(SurfaceSampling, PointsLieOnlyInsideTheBoxes) {
   const std::vector boxes{box_around({5, 0, 20}, 4)};
   const auto points = sample_surface(cube(), boxes, 50, 1);
   EXPECT_EQ(points.size(), 50u);
   for (const auto& point : points) EXPECT_TRUE(boxes[0].contains(point.p_W.cast<double>()));
 }
 
-TEST(SurfaceSampling, NothingWhereSolidsOverlapTouchOrStandOnTheGround) {
+TEST(SurfaceSampling, NoPointLiesWhereSolidsOverlapTouchOrStandOnTheGround) {
   MeshBuilder builder;
   builder.add_box(at(0, 0, 5), {10, 10, 10});      // on the ground
   builder.add_box(at(4, 0, 8), {10, 4, 4});        // half inside the first
@@ -78,9 +78,9 @@ TEST(SurfaceSampling, NothingWhereSolidsOverlapTouchOrStandOnTheGround) {
     EXPECT_FALSE(strictly_inside({0, 0, 5}, {10, 10, 10}));
     EXPECT_FALSE(strictly_inside({4, 0, 8}, {10, 4, 4}));
     const bool in_front_of_joint = std::abs(p.x()) < 5 && p.z() < 10;
-    EXPECT_FALSE(in_front_of_joint && std::abs(p.y() - 5) < 1e-4) << "between touching solids";
+    EXPECT_FALSE(in_front_of_joint && std::abs(p.y() - 5) < 1e-4) << "a point lies between touching solids";
     const bool behind_plate = std::abs(p.x()) < 4.9 && p.z() > 1.1 && p.z() < 8.9;
-    EXPECT_FALSE(behind_plate && p.y() < -4.99 && p.y() > -5.31) << "in a gap of 0.3 m";
+    EXPECT_FALSE(behind_plate && p.y() < -4.99 && p.y() > -5.31) << "a point lies in a gap of 0.3 m";
   }
 }
 
@@ -121,11 +121,11 @@ TEST(SurfaceSampling, AThinMemberHidesWhatIsCloseBehindIt) {
   for (const auto& point : points) {
     if (point.n_W.z() < 0.5f) continue;
     const double off = std::remainder(static_cast<double>(point.p_W.x()), 0.1);
-    EXPECT_GT(std::abs(off), 0.0249) << "below a bar: " << point.p_W.transpose();
+    EXPECT_GT(std::abs(off), 0.0249) << "a point lies behind a bar: " << point.p_W.transpose();
   }
 }
 
-TEST(SurfaceSampling, SameSeedSamePointsOtherSeedOthers) {
+TEST(SurfaceSampling, TheSameSeedGivesTheSamePointsAndAnotherSeedOthers) {
   const std::vector boxes{box_around({0, 0, 20}, 11)};
   const auto bytes = [&](std::uint64_t seed) {
     const auto points = sample_surface(cube(), boxes, 100, seed);
@@ -137,7 +137,7 @@ TEST(SurfaceSampling, SameSeedSamePointsOtherSeedOthers) {
   EXPECT_NE(bytes(1), bytes(2));
 }
 
-TEST(SurfaceSampling, NoSurfaceNoPoints) {
+TEST(SurfaceSampling, WithoutASurfaceThereAreNoPoints) {
   EXPECT_TRUE(sample_surface({}, std::vector{box_around({0, 0, 0}, 5)}, 10, 1).empty());
   EXPECT_TRUE(sample_surface(cube(), std::vector{box_around({99, 0, 0}, 5)}, 10, 1).empty());
 }

@@ -23,7 +23,7 @@ Bytes message(std::uint8_t participant, std::uint8_t number, std::size_t size) {
   return bytes;
 }
 
-/// Adds a message in parts that are cut anywhere, but in its header.
+/// Adds a message in parts, which may be cut anywhere except in the header.
 template <class Send>
 void add(Packed& packed, int to, const Bytes& bytes, RandomStream& random, const Send& send) {
   std::vector<iovec> parts;
@@ -48,7 +48,8 @@ TEST(PackedMessages, AllArriveOnceInOrderAndInAsFewDatagramsAsFit) {
     const auto send = [&](int to, const Bytes& bytes) {
       ++datagrams;
       if (bytes.size() > largest) {
-        EXPECT_TRUE(std::ranges::count(bytes, bytes[kHeader]) == static_cast<long>(bytes.size() - kHeader)) << "alone";
+        EXPECT_TRUE(std::ranges::count(bytes, bytes[kHeader]) == static_cast<long>(bytes.size() - kHeader))
+            << "a message larger than a datagram must travel alone";
       }
       const Bytes header(bytes.begin(), bytes.begin() + kHeader);
       for (std::size_t at = kHeader; at < bytes.size();) {

@@ -17,18 +17,18 @@ GUID_t endpoint(std::uint8_t participant, std::uint8_t entity) {
 
 const GuidPrefix_t kOwn = endpoint(9, 0).guidPrefix;
 
-TEST(Matches, HasTheWriterOfASampleBeforeTheMatchIsTold) {
+TEST(Matches, IncludesTheWriterOfASampleBeforeItsMatchIsReported) {
   Matches matches(kOwn);
   const GUID_t writer = endpoint(1, 1);
   matches.note_sample(writer);
   EXPECT_EQ(matches.participants(), std::vector{id_of(writer.guidPrefix)});
   matches.begin(writer);
-  EXPECT_EQ(matches.participants(), std::vector{id_of(writer.guidPrefix)}) << "once";
+  EXPECT_EQ(matches.participants(), std::vector{id_of(writer.guidPrefix)}) << "the match must not add the writer again";
   matches.end(writer);
   EXPECT_TRUE(matches.empty());
 }
 
-TEST(Matches, ALateSampleBringsNoWriterBackButANewMatchDoes) {
+TEST(Matches, OnlyANewMatchBringsAWriterBackNotALateSample) {
   Matches matches(kOwn);
   const GUID_t writer = endpoint(1, 1);
   matches.begin(writer);
@@ -47,7 +47,7 @@ TEST(Matches, EndpointsOfTheOwnParticipantDoNotCount) {
   EXPECT_TRUE(matches.empty());
 }
 
-// Matches of one endpoint begin and end in turn; its samples come at any time from shortly before a beginning on.
+// Matches of one endpoint begin and end alternately. Its samples may come at any time, even shortly before the match.
 TEST(Matches, DrawnOrdersEndWithTheEndpointsThatAreThere) {
   for (unsigned seed = 0; seed < 500; ++seed) {
     std::mt19937 random(seed);

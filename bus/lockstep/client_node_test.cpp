@@ -38,7 +38,7 @@ class Lonely final : public ClientNode {
   int looks_ = 0;
 };
 
-TEST(ClientNode, SaysWhatItWaitsForNowAndThen) {
+TEST(ClientNode, LogsWhatItWaitsForLessAndLessOften) {
   std::ostringstream text;
   const auto before = spdlog::default_logger();
   spdlog::set_default_logger(
@@ -52,10 +52,10 @@ TEST(ClientNode, SaysWhatItWaitsForNowAndThen) {
   std::size_t times = 0;
   for (std::size_t at = said.find(word); at != std::string::npos; at = said.find(word, at + 1)) ++times;
   EXPECT_GE(times, 2U) << said;
-  EXPECT_LE(times, 20U) << "each time after twice as long";
+  EXPECT_LE(times, 20U) << "the pause between two messages doubles each time";
 }
 
-/// A server as far as its invitation. `matches`: whether what the two say to each other has found its readers by then.
+/// A server that sends only its invitation. `matches`: whether the endpoints of the two have found each other by then.
 class Host {
  public:
   Host(Bus& bus, bool matches) : participant_(bus.join(0)) {
@@ -94,11 +94,12 @@ std::optional<NodeEnd> end_without_idle_turns(bool matches) {
 }
 
 TEST(ClientNode, AMemberThatNeverHadAnIdleTurnFindsThatTheServerHasGone) {
-  EXPECT_EQ(end_without_idle_turns(true), NodeEnd::finished) << "it was not a member yet";
+  EXPECT_EQ(end_without_idle_turns(true), NodeEnd::finished)
+      << "the node ends without an error, because it was not a member yet";
 }
 
-TEST(ClientNode, AnInvitationMayBeHereBeforeItsServerIsFound) {
-  EXPECT_EQ(end_without_idle_turns(false), std::nullopt) << "what has not been found has not gone";
+TEST(ClientNode, AnInvitationMayArriveBeforeItsServerIsFound) {
+  EXPECT_EQ(end_without_idle_turns(false), std::nullopt) << "a server that has not been found yet cannot have gone";
 }
 
 }  // namespace

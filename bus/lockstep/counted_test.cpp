@@ -19,7 +19,7 @@ std::string described(const std::string& topic, ParticipantId source, std::uint6
   return topic + " " + std::to_string(source) + " " + std::to_string(number);
 }
 
-/// The same in the plainest words: one list of samples for each topic and source.
+/// The oracle, a simple implementation of the same: one list of samples for each topic and source.
 class Oracle {
  public:
   struct Lane {
@@ -62,7 +62,7 @@ class Oracle {
   }
 };
 
-/// The queues and the oracle, told the same things.
+/// The queues and the oracle, with the same inputs.
 class Both {
  public:
   Both() {
@@ -98,7 +98,7 @@ class Both {
   }
   void begin_anew(const std::string& topic, RandomStream& random) {
     queues.remove_topic(topic);
-    queues.set_base(topic, 7, 99);  // not listened to: of no effect
+    queues.set_base(topic, 7, 99);  // without effect, because nobody listens to this source
     add(topic);
     std::erase_if(oracle.expected, [&](const Expected& e) { return e.topic == topic; });
     std::erase_if(oracle.lanes, [&](const auto& lane) { return lane.first.first == topic; });
@@ -129,7 +129,7 @@ class Both {
   std::uint64_t next_number_ = 0;
 };
 
-TEST(CountedQueues, DoWhatAListOfAllThatWasSaidWould) {
+TEST(CountedQueues, AgreeWithAListOfAllMessages) {
   std::size_t handed_out = 0, completed = 0, incomplete = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     RandomStream random(seed, "counted", 0);
@@ -156,7 +156,7 @@ TEST(CountedQueues, DoWhatAListOfAllThatWasSaidWould) {
     }
   }
   EXPECT_GT(handed_out, 2000U);
-  EXPECT_GT(std::min(completed, incomplete), 300U) << "both must have been seen";
+  EXPECT_GT(std::min(completed, incomplete), 300U) << "the test must have seen complete and incomplete steps";
 }
 
 TEST(CountedWriter, SendsNoMoreInAStepThanItsHistoryHolds) {
@@ -179,9 +179,9 @@ TEST(CountedWriter, SendsNoMoreInAStepThanItsHistoryHolds) {
   }
   writer.begin_step();
   writer.skip();
-  EXPECT_EQ(writer.count(), 10U) << "counted,";
-  EXPECT_EQ(heard, 9U) << "not sent,";
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(writer.write(payload), i < 2) << "and of this step's share";
+  EXPECT_EQ(writer.count(), 10U) << "a skipped message is counted";
+  EXPECT_EQ(heard, 9U) << "but not sent";
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(writer.write(payload), i < 2) << "it is one of the three of its step";
 }
 
 TEST(CountedWriter, TheBusCountsTheUnsentMessagesOfAllItsWriters) {

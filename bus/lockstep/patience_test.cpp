@@ -20,7 +20,7 @@ TEST(Patience, IsOverWhenTheTimeIsUp) {
 TEST(Patience, DoesNotCountTheTimeInWhichItsProcessStoodStill) {
   const Time start{};
   Patience patience(2.0, start);
-  EXPECT_FALSE(patience.over(start + 1h)) << "who was stopped has not seen what came meanwhile";
+  EXPECT_FALSE(patience.over(start + 1h)) << "a process that was stopped has not yet seen what arrived meanwhile";
   EXPECT_FALSE(patience.over(start + 1h + 500ms));
   EXPECT_TRUE(patience.over(start + 1h + 1100ms));
 }

@@ -38,7 +38,7 @@ class SelfSignal : public testing::TestWithParam<bool> {};
 
 TEST_P(SelfSignal, AKilledProgramIsDead) {
   const int status = run_as(GetParam(), [] { kill_ourselves(); });
-  if (status == kNotPermitted) GTEST_SKIP() << "a PID namespace takes root";
+  if (status == kNotPermitted) GTEST_SKIP() << "only root may create a PID namespace";
   EXPECT_EQ(status, 128 + SIGKILL);
 }
 
@@ -49,7 +49,7 @@ TEST_P(SelfSignal, AProgramThatCannotBeContinuedIsNotStopped) {
     stop_ourselves();
     ::_exit(asked ? 42 : 1);
   });
-  if (status == kNotPermitted) GTEST_SKIP() << "a PID namespace takes root";
+  if (status == kNotPermitted) GTEST_SKIP() << "only root may create a PID namespace";
   EXPECT_EQ(status, 42);
 }
 
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(OfAnyPlace, SelfSignal, testing::Values(false, true), [
   return place.param ? std::string("FirstOfItsNamespace") : std::string("AnyOther");
 });
 
-TEST(SelfSignalOfAProgram, AStoppedOneStandsStillUntilItIsContinued) {
+TEST(SelfSignalOfAProgram, AStoppedProgramStandsStillUntilItIsContinued) {
   const pid_t child = ::fork();
   if (child == 0) {
     stop_ourselves();
@@ -71,7 +71,7 @@ TEST(SelfSignalOfAProgram, AStoppedOneStandsStillUntilItIsContinued) {
   EXPECT_EQ(WEXITSTATUS(status), 42);
 }
 
-TEST(SelfSignalOfAProgram, AUsersOwnCommandIsLeftToTheLauncher) {
+TEST(SelfSignalOfAProgram, AUsersOwnCommandDoesNotStopItself) {
   const pid_t child = ::fork();
   if (child == 0) {
     ::setenv("SKEIN_UAV", "jurong", 1);
@@ -84,7 +84,7 @@ TEST(SelfSignalOfAProgram, AUsersOwnCommandIsLeftToTheLauncher) {
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
   }
-  EXPECT_TRUE(WIFEXITED(status)) << "it stands, and the launcher may have gone on with it before";
+  EXPECT_TRUE(WIFEXITED(status)) << "it stopped itself; if the launcher has continued it before, it stands for ever";
   EXPECT_EQ(WEXITSTATUS(status), 42);
 }
 

@@ -10,7 +10,7 @@ namespace {
 const std::string kTopic = "rt/ada/command/trajectory";
 const Strangers::IsStranger kAll = [](ParticipantId) { return true; };
 
-TEST(Strangers, AreToldOfOnceATopicAndWriter) {
+TEST(Strangers, AreReportedOncePerTopicAndWriter) {
   Strangers strangers;
   for (std::uint64_t step = 5; step < 500; ++step) {
     strangers.add("ada", kTopic, 1, step);

@@ -52,7 +52,7 @@ TEST_F(BoxFile, RotationsAreOrthonormal) {
   EXPECT_NEAR(boxes[0].R_WO.determinant(), 1.0, 1e-14);
 }
 
-TEST_F(BoxFile, SaysWhatIsWrong) {
+TEST_F(BoxFile, AnErrorSaysWhatIsWrong) {
   const auto wrong = [&](const std::string& text) { return complaint(read_boxes, write("x.yaml", text)); };
   EXPECT_NE(complaint(read_boxes, folder_ / "none.yaml").find("no such file"), std::string::npos);
   EXPECT_NE(wrong("").find("no boxes"), std::string::npos);
@@ -71,7 +71,7 @@ TEST_F(BoxFile, SaysWhatIsWrong) {
   EXPECT_NE(wrong(with("size: [100", "sise: [100")).find("did you mean 'size'?"), std::string::npos);
 }
 
-TEST_F(BoxFile, SaysByWhichNumbersAMatrixIsNoRotation) {
+TEST_F(BoxFile, AnErrorSaysWhyAMatrixIsNoRotation) {
   const auto wrong = [&](const std::string& row) {
     return complaint(read_boxes, write("x.yaml", with("[1, 0, 0, 0,  0, 1, 0, 0,", row)));
   };

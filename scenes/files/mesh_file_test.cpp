@@ -65,11 +65,11 @@ TEST_F(MeshFile, ReadsBinaryAndAscii) {
   expect_triangles(read_mesh(write("a.stl", ascii_stl(kTriangles))));
 }
 
-TEST_F(MeshFile, GoesByTheContentNotByTheName) {
+TEST_F(MeshFile, TheContentDecidesOnTheFormatNotTheName) {
   expect_triangles(read_mesh(write("mesh.dat", binary_stl(kTriangles, "solid, says this binary file"))));
 }
 
-TEST_F(MeshFile, SaysWhatIsWrong) {
+TEST_F(MeshFile, AnErrorSaysWhatIsWrong) {
   const auto wrong = [&](const std::string& bytes) { return complaint(read_mesh, write("x.stl", bytes)); };
   const std::string binary = binary_stl(kTriangles);
   const std::string ascii = ascii_stl(kTriangles);
@@ -129,7 +129,7 @@ TEST_F(MeshFile, AsciiNumbersAreReadToOneUnitInTheLastPlace) {
   }
 }
 
-TEST_F(MeshFile, HeadAndAttributesOfABinaryFileDoNotMatter) {
+TEST_F(MeshFile, HeaderAndAttributesOfABinaryFileAreIgnored) {
   using namespace std::string_literals;
   for (const std::string& head : {"\xef\xbb\xbf with a byte order mark"s, "\xff\xfe"s, "\xff\xfe\0\0"s, "\xfe\xff"s,
                                   std::string(74, ' ') + "COLOR=", "COLOR=\xff\xff\xff\xff"s}) {
@@ -139,7 +139,7 @@ TEST_F(MeshFile, HeadAndAttributesOfABinaryFileDoNotMatter) {
   }
 }
 
-TEST_F(MeshFile, AsciiSaysWhereItIsWrong) {
+TEST_F(MeshFile, AnErrorInAsciiHasItsLine) {
   const std::string ascii = ascii_stl(kTriangles);
   const auto wrong = [&](const std::string& old, const std::string& replacement) {
     std::string text = ascii;
@@ -159,7 +159,7 @@ TEST_F(MeshFile, AsciiSaysWhereItIsWrong) {
             std::string::npos);
 }
 
-TEST_F(MeshFile, TrianglesWithoutAreaStay) {
+TEST_F(MeshFile, TrianglesWithoutAreaAreKept) {
   auto triangles = kTriangles;
   triangles[1] = {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
   triangles[2] = {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};

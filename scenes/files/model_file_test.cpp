@@ -179,7 +179,8 @@ TEST_F(ModelFile, AColladaFileMayHaveEmptyObjectsAndSpacesInTexts) {
   expect_near(with("\n  Z_UP\n"), box);
 }
 
-/// Each primitive gets only what it needs of vertices that many share; else a small file would need much memory.
+/// If primitives share vertices, the reader gives each only those that it uses. Otherwise a small file could need much
+/// memory.
 TEST_F(ModelFile, PrimitivesOfGltfMayShareTheVerticesOfAModel) {
   TriangleMesh mesh{std::vector<Eigen::Vector3f>(20'000, {1, 2, 3}), {{19'999, 0, 1}}};
   mesh.vertices[1] = {4, 5, 6};
@@ -191,7 +192,7 @@ TEST_F(ModelFile, PrimitivesOfGltfMayShareTheVerticesOfAModel) {
   EXPECT_EQ(corners(read("m.gltf", text)), Corners(100, corners(mesh).front()));
 }
 
-TEST_F(ModelFile, SaysWhichNamesAreAccepted) {
+TEST_F(ModelFile, AnErrorListsTheAcceptedExtensions) {
   for (const char* name : {"box.fbx", "box", "box.stl.bak", ".obj"}) {
     EXPECT_NE(wrong(name, small_models::obj(box_mesh())).find("unless its name ends with .obj, .ply, .dae, .glb or"),
               std::string::npos)
@@ -202,7 +203,7 @@ TEST_F(ModelFile, SaysWhichNamesAreAccepted) {
 /// Each line: what to replace in a sound file, by what, and a part of the message.
 using Mistakes = std::vector<std::array<std::string, 3>>;
 
-TEST_F(ModelFile, SaysWhatIsWrongWithObjAndPly) {
+TEST_F(ModelFile, AnErrorSaysWhatIsWrongInObjAndPly) {
   const std::string obj = small_models::obj(box_mesh());
   const Mistakes in_obj = {
       {"v -1 -1 -1", "v -1 0,5 -1", "x.obj:6: not a readable OBJ: a number is needed, not '0,5'"},
@@ -237,7 +238,7 @@ TEST_F(ModelFile, SaysWhatIsWrongWithObjAndPly) {
   EXPECT_NE(wrong("x.ply", bare).find("its vertices need the properties x, y and z"), std::string::npos);
 }
 
-TEST_F(ModelFile, SaysWhatIsWrongWithColladaAndGltf) {
+TEST_F(ModelFile, AnErrorSaysWhatIsWrongInColladaAndGltf) {
   const std::string dae = small_models::dae(box_mesh());
   const std::string node = "<node id=\"n\">";
   const Mistakes in_dae = {

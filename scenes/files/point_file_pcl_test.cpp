@@ -156,8 +156,8 @@ TEST_F(PointFilePcl, DrawnCloudsAreReadAsPclReadsThem) {
   }
 }
 
-/// A little more than half way between two floats, by less than a double can tell: PCL, which takes a number for a
-/// double first, does not round it up (but for the first number of all). Some are too small for any float but 0.
+/// Numbers a little more than half way between two floats, by less than the precision of a double. PCL first converts
+/// to double, so it does not round them up (except the first number). Some are too small for any float but 0.
 TEST_F(PointFilePcl, AsciiIsRoundedAsPclRoundsIt) {
   RandomStream draw(1, "point_file_pcl_test", 1);
   for (const char* size : {"4", "8"}) {

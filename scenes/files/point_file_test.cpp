@@ -118,7 +118,7 @@ TEST_F(PointFile, NormalsGetUnitLength) {
   EXPECT_EQ(points.at(0).n_W, Eigen::Vector3f(0, 1, 0));
 }
 
-TEST_F(PointFile, SaysWhatIsWrong) {
+TEST_F(PointFile, AnErrorSaysWhatIsWrong) {
   const auto wrong = [&](const std::string& bytes) { return complaint(read_points, write("x.pcd", bytes)); };
   const auto expect = [&](const std::string& bytes, const std::string& part) {
     const std::string message = wrong(bytes);
@@ -210,7 +210,7 @@ TEST_F(PointFile, MalformedPackedDataAreRefused) {
   expect(packed_by_hand({3, 0, 0, 0x80, 0x3f, kLong, 11, 3}, 25),
          "malformed: the compressed data unpack to 25 bytes, "
          "where the header needs 24");
-  // 1000 times as much as LZF can pack.
+  // The announced size is 1000 times what LZF can achieve.
   const std::string many =
       with(with(packed_by_hand({0, 0}, 24'000'000), "WIDTH 1", "WIDTH 1000000"), "POINTS 1", "POINTS 1000000");
   expect(many, "malformed: the data do not unpack");

@@ -42,7 +42,7 @@ class Flood {
     fill(size_ - Eigen::Vector3i::Ones());  // a corner of the sky
   }
 
-  /// Whether a cell whose middle is that near has been reached from the sky. All around the structures is sky.
+  /// Whether the flood from the sky has reached a cell whose middle is that near. Beyond the grid, everything is sky.
   bool reaches(const Vector3d& p, double distance) const {
     if (!box_.contains(p)) return p.z() > 0.0;
     bool reached = false;
@@ -113,17 +113,17 @@ class Flood {
 };
 
 Vector3d above(const Vector2d& start) { return {start.x(), start.y(), 1.5}; }
-/// A takeoff that is clear may pass closer to a surface than kBerth; at most so far away it has room again. Less than
-/// the thickness of the walls below with the berth on both sides.
+/// A clear takeoff may pass closer to a surface than kBerth; within this distance, there is room again. It is less than
+/// the thickness of the walls below plus the berth on both sides.
 constexpr double kFromStart = 1.3;
 
 class FloodedWorld : public testing::TestWithParam<std::string> {
  protected:
-  /// Another one at each commit.
+  /// The seed is different at each commit.
   const World world_ = draw_world(GetParam(), 100 + turn_number() % 50, source_path("config"));
 };
 
-TEST_P(FloodedWorld, StartsStationAndPointsHangTogetherWithTheSky) {
+TEST_P(FloodedWorld, StartsStationAndPointsAreConnectedToTheSky) {
   const Flood flood(world_.scene.mesh);
   for (const UavConfig& uav : world_.scenario.fleet)
     EXPECT_TRUE(flood.reaches(above(uav.start), kFromStart)) << uav.name;
@@ -138,7 +138,7 @@ TEST_P(FloodedWorld, StartsStationAndPointsHangTogetherWithTheSky) {
   EXPECT_GE(static_cast<double>(near), 0.25 * static_cast<double>(world_.scene.points.size()));
 }
 
-TEST_P(FloodedWorld, AStartThatIsWalledInDoesNot) {
+TEST_P(FloodedWorld, AWalledInStartIsNotConnectedToTheSky) {
   MeshBuilder walls;
   const Vector2d start = world_.scenario.fleet.front().start;
   for (int i = 0; i < 4; ++i) {
