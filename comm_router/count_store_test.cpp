@@ -13,7 +13,7 @@
 namespace skein::router {
 namespace {
 
-/// From "a", node 1, to the station and to "b".
+/// A message from "a", node 1, to the station and to "b".
 std::vector<RadioRoute> routes() {
   Scenario scenario;
   scenario.fleet.resize(2);
@@ -59,8 +59,8 @@ TEST_F(CountStoreTest, MessagesUnderWayWhenTheRouterDiesCountAsLost) {
   {
     CountStore store(file_, 3);
     store.save(gate, gate.gate(0, linked_, {message(0)}));
-    store.save(gate, gate.gate(1, linked_, {message(1), message(2)}));  // under way for one and two steps more
-    store.save(gate, gate.gate(2, linked_, {}));                        // delivers the first of them, and dies
+    store.save(gate, gate.gate(1, linked_, {message(1), message(2)}));  // they are under way for one and two more steps
+    store.save(gate, gate.gate(2, linked_, {}));  // the router delivers the first of them, and dies
   }
   const LinkCounts to_b = CountStore(file_, 3).earlier_counts().at(Node{1}, Node{2});
   EXPECT_EQ(to_b.sent, 3U);
@@ -82,10 +82,10 @@ TEST_F(CountStoreTest, TheCountsOfAnotherRunAreNotTakenUp) {
   EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts().at(Node{1}, Node{2}).sent, 1U);
   EXPECT_EQ(CountStore(file_, 3, RunId{8}).earlier_counts().at(Node{1}, Node{2}), LinkCounts{});
   EXPECT_EQ(CountStore(file_, 3, RunId{7}).earlier_counts().at(Node{1}, Node{2}), LinkCounts{})
-      << "it is the other's now";
+      << "the file belongs to the other run now";
 }
 
-TEST_F(CountStoreTest, WithoutRoomOnTheDiskItIsAnErrorBeforeTheFirstCount) {
+TEST_F(CountStoreTest, AFullDiskIsAnErrorBeforeTheFirstCount) {
   const pid_t child = ::fork();  // the limit must not touch this process
   ASSERT_GE(child, 0);
   if (child == 0) {

@@ -48,7 +48,8 @@ Links random_links(std::mt19937& random) {
   return {kNodes, std::move(links)};
 }
 
-/// Late by the sequence number modulo 3; of eleven messages two are lost, one does not fit, three come twice.
+/// Delays messages by their sequence number modulo 3. Of eleven messages, it loses two by a fault and one by a full
+/// queue, and sends three twice.
 class LateLinks final : public LinkModel {
  public:
   LinkFate fate(std::uint64_t, const RadioRoute&, Node, const SentMessage& message) override {
@@ -93,7 +94,7 @@ TEST(LinkGate, DeliveriesAreOrderedBySourceTopicSequenceTarget) {
   };
   EXPECT_TRUE(std::ranges::is_sorted(step.deliveries, {}, key));
 
-  // Members of other nodes may come in any order: what leaves is the same, to the digest.
+  // Messages of different nodes may come in any order: deliveries and digest are the same.
   const auto source = [&](const SentMessage& m) { return gate.routes()[m.route].source; };
   std::ranges::stable_sort(messages, std::greater{}, source);
   LinkGate other(kAllToAll, kNodes);
@@ -111,7 +112,7 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
     }
     gate.gate(k, random_links(random), messages);
   }
-  for (std::uint64_t k = 100; k < 103; ++k) gate.gate(k, kNoneLinked, {});  // what is late comes in
+  for (std::uint64_t k = 100; k < 103; ++k) gate.gate(k, kNoneLinked, {});  // delayed messages arrive
   LinkCounts sum;
   for (const Node from : FirstNodes(kNodes)) {
     for (const Node to : FirstNodes(kNodes)) {
@@ -119,7 +120,7 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
       const std::uint64_t lost = link.dropped_no_los + link.dropped_fault + link.dropped_overflow;
       EXPECT_EQ(link.sent + link.duplicated, link.delivered + lost);
       EXPECT_EQ(link.sent > 0, from != to);
-      EXPECT_EQ(link.sent_bytes, link.sent) << "of one byte each";
+      EXPECT_EQ(link.sent_bytes, link.sent) << "each message has one byte";
       EXPECT_EQ(link.delivered_bytes, link.delivered);
       sum.sent += link.sent;
       sum.delivered += link.delivered;
@@ -132,7 +133,7 @@ TEST(LinkGate, CountsAddUpOnEveryLink) {
     }
   }
   EXPECT_EQ(gate.total(), sum);
-  // Each counter is of the size that the model makes it, so that none counts in place of another.
+  // The counters have the different sizes that the model gives, so none counts in place of another.
   const double passed = static_cast<double>(sum.sent - sum.dropped_no_los);
   EXPECT_NEAR(static_cast<double>(sum.dropped_no_los), 0.5 * static_cast<double>(sum.sent), 0.1 * passed);
   EXPECT_NEAR(static_cast<double>(sum.dropped_fault), passed * 2.0 / 11.0, 0.03 * passed);
@@ -171,7 +172,7 @@ TEST(LinkGate, TheDigestSeesEveryFieldOfADelivery) {
   EXPECT_NE(digest(route(Node{1}, "/x", {Node{3}}), routed_message(0, 5, "hello")), reference);
 }
 
-TEST(LinkGate, NoDeliveryNoDigest) {
+TEST(LinkGate, WithoutADeliveryThereIsNoDigest) {
   const std::vector<RadioRoute> routes = {route(Node{1}, "/x", {Node{2}})};
   LinkGate gate(routes, kNodes);
   EXPECT_TRUE(gate.gate(0, kNoneLinked, {routed_message(0, 0, "lost")}).digest.empty());

@@ -1,4 +1,4 @@
-// Only capture reports that a link spoiled are written down, across a restart of the router too.
+// The record has only capture reports that a link lost or delayed, also after a restart of the router.
 #include "comm_router/link_record.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class LinkRecordTest : public testing::Test {
   }
   ~LinkRecordTest() override { std::filesystem::remove_all(folder_); }
 
-  /// A router's life with links that do this to all messages.
+  /// A router whose links treat all messages like this, from its start to its end.
   void send(LinkFate fate, std::uint64_t k, const std::string& topic = captures_topic("changi"),
             Node target = kStationNode) {
     RadioRoute route;

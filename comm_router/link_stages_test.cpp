@@ -56,7 +56,7 @@ TEST(LinkStages, WithoutEffectsLinksAreIdeal) {
   EXPECT_TRUE(same(stages.fate(3, kRoute, kB, message(0)), {}));
 }
 
-TEST(LinkStages, LossIsAsFrequentAsItSays) {
+TEST(LinkStages, LossHasItsProbability) {
   for (const double loss : {0.0, 0.1, 0.5, 0.9, 1.0}) {
     LinkEffect effect;
     effect.loss = loss;
@@ -119,7 +119,7 @@ TEST(LinkStages, LatencyIsRoundedUpToExchangesAndJitterStaysInItsRange) {
   for (const int steps : {3, 4, 5, 6}) EXPECT_NEAR(seen[static_cast<std::size_t>(steps)], 1000, 150) << steps;
 }
 
-TEST(LinkStages, DuplicatesAndReorders) {
+TEST(LinkStages, MessagesAreDuplicatedAndReordered) {
   LinkEffect effect;
   effect.duplication = 0.25;
   effect.reordering = Reordering{0.5, 0.5};
@@ -135,7 +135,7 @@ TEST(LinkStages, DuplicatesAndReorders) {
   EXPECT_NEAR(late, 4000, 180);
 }
 
-TEST(LinkStages, BurstsLastAndComeAsOftenAsTheySay) {
+TEST(LinkStages, BurstsHaveTheirMeanLengthAndFrequency) {
   LinkEffect effect;
   effect.burst_loss = BurstLoss{4.0, 1.0, 1.0};
   LinkStages stages = stages_of(plan_of(effect));
@@ -161,11 +161,12 @@ TEST(LinkStages, BandwidthDelaysAndOverflows) {
   for (std::uint64_t i = 0; i < 5; ++i) fates.push_back(stages.fate(0, kRoute, kB, message(i)));
   EXPECT_EQ(fates[0].delay_steps, 2u);
   EXPECT_EQ(fates[1].delay_steps, 4u);
-  EXPECT_EQ(fates[2].loss, LinkLoss::overflow);  // 200 bytes wait or are under way, 100 more do not fit
+  EXPECT_EQ(fates[2].loss, LinkLoss::overflow);  // 200 bytes wait or are under way, so 100 more do not fit
   EXPECT_EQ(fates[4].loss, LinkLoss::overflow);
-  EXPECT_EQ(stages.fate(2, kRoute, kB, message(5)).delay_steps, 4u);     // 100 bytes have gone
-  EXPECT_EQ(stages.fate(1000, kRoute, kB, message(6)).delay_steps, 2u);  // idle again
-  EXPECT_EQ(stages.fate(2000, kRoute, kB, message(7, 4000)).loss, LinkLoss::none) << "what meets no queue always fits";
+  EXPECT_EQ(stages.fate(2, kRoute, kB, message(5)).delay_steps, 4u);     // 100 bytes have been sent meanwhile
+  EXPECT_EQ(stages.fate(1000, kRoute, kB, message(6)).delay_steps, 2u);  // the queue is empty again
+  EXPECT_EQ(stages.fate(2000, kRoute, kB, message(7, 4000)).loss, LinkLoss::none)
+      << "a message that finds an empty queue always fits";
 }
 
 TEST(LinkStages, DrawsDependOnKeysAlone) {
@@ -198,7 +199,7 @@ TEST(LinkStages, DrawsDependOnKeysAlone) {
   EXPECT_GT(changed, 500);
 }
 
-TEST(LinkStages, CutsLinks) {
+TEST(LinkStages, BlackoutsAndPartitionsCutLinks) {
   const auto lost = [](const FaultPlan& plan, std::uint64_t k) {
     LinkStages stages = stages_of(plan);
     return stages.fate(k, kRoute, kB, message(0)).loss == LinkLoss::fault;
@@ -208,7 +209,7 @@ TEST(LinkStages, CutsLinks) {
   EXPECT_FALSE(lost(plan_of(StationOutage{}), 0));
   EXPECT_TRUE(lost(plan_of(Partition{{{"a", "gcs"}, {"b"}}}), 0));
   EXPECT_FALSE(lost(plan_of(Partition{{{"a", "b"}, {"gcs"}}}), 0));
-  EXPECT_TRUE(lost(plan_of(Partition{{{"a"}}}), 0)) << "who is in no group is alone";
+  EXPECT_TRUE(lost(plan_of(Partition{{{"a"}}}), 0)) << "a node in no group is cut off from all";
   EXPECT_FALSE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 19));
   EXPECT_TRUE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 20));
   EXPECT_FALSE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 40));
@@ -231,7 +232,7 @@ TEST(LinkStages, ActsOnTheTopicsThatItNamesAndOnNoOther) {
   }
 }
 
-TEST(LinkStages, OneTopicsQueueIsNotAnothers) {
+TEST(LinkStages, OtherTopicsDoNotWaitInTheQueueOfAnEffectOnOneTopic) {
   LinkEffect effect;
   effect.bandwidth_bit_s = 8000.0;
   effect.topics = {"/x"};
@@ -239,7 +240,7 @@ TEST(LinkStages, OneTopicsQueueIsNotAnothers) {
   RadioRoute other = kRoute;
   other.ros_topic = "/y";
   for (std::uint64_t i = 0; i < 5; ++i) EXPECT_EQ(stages.fate(0, other, kB, message(i)).delay_steps, 0u);
-  EXPECT_EQ(stages.fate(0, kRoute, kB, message(0)).delay_steps, 2u) << "nothing was before it";
+  EXPECT_EQ(stages.fate(0, kRoute, kB, message(0)).delay_steps, 2u) << "the queue of /x was empty before";
 }
 
 int differing_bits(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
@@ -248,7 +249,7 @@ int differing_bits(const std::vector<std::uint8_t>& a, const std::vector<std::ui
   return bits;
 }
 
-TEST(LinkStages, CorruptionFlipsBitsOfTheContentAsOftenAsItSays) {
+TEST(LinkStages, CorruptionFlipsBitsOfTheContentWithItsProbability) {
   LinkEffect effect;
   effect.corruption = 0.25;
   LinkStages stages = stages_of(plan_of(effect)), again = stages_of(plan_of(effect));
@@ -287,7 +288,7 @@ TEST(LinkStages, CorruptionLeavesTheOtherDrawsAsTheyAre) {
 }
 
 // The effects of the fault are the same as if the file had named its time.
-TEST(LinkStages, AFaultThatWaitedActsFromThenOnAsIfItsTimeHadBeenKnown) {
+TEST(LinkStages, AWaitingFaultActsAsIfItsTimeHadBeenInTheFile) {
   LinkEffect effect;
   effect.loss = 0.3;
   effect.burst_loss = BurstLoss{0.5, 0.5, 1.0};
@@ -303,7 +304,7 @@ TEST(LinkStages, AFaultThatWaitedActsFromThenOnAsIfItsTimeHadBeenKnown) {
       if (k >= begin) stages.set_off(0, tick);  // told again and again
       EXPECT_TRUE(same(stages.fate(k, kRoute, kB, message(k)), known.fate(k, kRoute, kB, message(k)))) << k;
     }
-    LinkStages restarted = stages_of(waiting);  // hears of it later than it began
+    LinkStages restarted = stages_of(waiting);  // learns of the fault after its beginning
     restarted.set_off(0, tick);
     LinkStages known_again = stages_of(plan_of(effect, at_s, at_s + 1.0));
     for (std::uint64_t k = begin + 7; k < 100; ++k) {
@@ -332,7 +333,7 @@ TEST(LinkStages, FaultsByHandActLikeThoseOfAFile) {
     own.loss = 0.2;
     own.burst_loss = BurstLoss{1.0, 0.5};
     const FaultPlan planned = plan_of(own, 1.0);
-    std::vector<Fault> whole;  // as they will be in the end
+    std::vector<Fault> whole;  // the faults with their ends, as known after the run
     for (int i = 0; i < 5; ++i) {
       Fault fault{.at_s = 0.05 * static_cast<double>(1 + below(kSteps)), .until_s = {}, .action = Blackout{"a"}};
       if (below(3) > 0) fault.until_s = fault.at_s + 0.05 * static_cast<double>(1 + below(100));
@@ -345,7 +346,7 @@ TEST(LinkStages, FaultsByHandActLikeThoseOfAFile) {
       whole.push_back(fault);
     }
     std::ranges::stable_sort(whole, {}, &Fault::at_s);
-    /// As the step tells them: those that have begun, with the ends that have come.
+    /// The faults as a step reports them: those that have begun, with the ends that are known by then.
     const auto told = [&](std::uint64_t k) {
       const Tick tick = static_cast<Tick>(k) * two_uavs().exchange_ticks();
       std::vector<Fault> known;

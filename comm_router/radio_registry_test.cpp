@@ -73,22 +73,22 @@ TEST_F(Registry, OpensOnceTheWriterIsFound) {
   EXPECT_TRUE(step().empty()) << "nothing has changed";
 }
 
-TEST_F(Registry, SaysThatThereIsNoFittingWriter) {
+TEST_F(Registry, ARequestWithoutAMatchingWriterIsRefusedWithTheReason) {
   hears_.clear();
   const auto replies = step({sending(kFirst, 5)});
   ASSERT_EQ(replies.size(), 1U);
   EXPECT_FALSE(replies[0].open);
   EXPECT_NE(replies[0].reason.find("BEST_EFFORT"), std::string::npos);
   EXPECT_TRUE(admitted_.empty());
-  EXPECT_EQ(registry_.decided_by_clock().size(), 1U) << "with more patience it might have been found";
-  EXPECT_TRUE(opened_.empty()) << "what was made for it is freed";
+  EXPECT_EQ(registry_.decided_by_clock().size(), 1U) << "with more patience, the registry might have found a writer";
+  EXPECT_TRUE(opened_.empty()) << "the endpoints made for the request are freed";
   hears_ = {kFirst};
-  EXPECT_TRUE(step({sending(kFirst, 6)}).at(0).open) << "it may ask again";
+  EXPECT_TRUE(step({sending(kFirst, 6)}).at(0).open) << "the member may ask again";
   EXPECT_TRUE(registry_.decided_by_clock().empty());
   EXPECT_EQ(opened_.size(), 1U);
 }
 
-TEST_F(Registry, AMemberThatAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
+TEST_F(Registry, TheFleetDoesNotWaitForAMemberThatAsksInVainAgainAndAgain) {
   hears_ = {kSecond};
   for (std::uint32_t id = 0; id < RadioRegistry::kMaxVain; ++id) {
     registry_.begin_step({sending(kFirst, id)});
@@ -96,7 +96,7 @@ TEST_F(Registry, AMemberThatAsksInVainAgainAndAgainIsNotWaitedForAnyMore) {
     EXPECT_FALSE(registry_.end_step().at(0).open);
   }
   registry_.begin_step({sending(kFirst, 9), sending(kSecond, 1)});
-  EXPECT_FALSE(registry_.waiting()) << "the fleet does not stand still for it";
+  EXPECT_FALSE(registry_.waiting()) << "the fleet does not wait for this member";
   const auto replies = registry_.end_step();
   ASSERT_EQ(replies.size(), 2U);
   EXPECT_NE(replies[0].reason.find("three times"), std::string::npos);
@@ -121,7 +121,7 @@ TEST_F(Registry, ListenersMayComeFirstOrLater) {
   EXPECT_TRUE(step().at(0).unheard.empty()) << "both ends of all are matched";
 }
 
-TEST_F(Registry, DeclaredReadersHear) {
+TEST_F(Registry, DeclaredReadersCountAsListeners) {
   declared_ = {Node{0}, Node{2}};
   EXPECT_TRUE(step({sending(kFirst, 1)}).at(0).unheard.empty());
 }
@@ -147,7 +147,7 @@ TEST_F(Registry, AnotherTypeThanThatOfAnEarlierListenerIsRefusedAndTheListenerSt
   ASSERT_EQ(replies.size(), 2U);
   EXPECT_TRUE(replies[0].open && replies[1].open);
   EXPECT_EQ(replies[1].asker.source, kSecond);
-  EXPECT_EQ(step().at(0).unheard, std::vector<std::string>{"gcs"}) << "b hears";
+  EXPECT_EQ(step().at(0).unheard, std::vector<std::string>{"gcs"}) << "b has a matching reader";
 }
 
 TEST_F(Registry, AListenerMayCorrectItsOwnType) {
@@ -221,11 +221,11 @@ TEST_F(Registry, ARouteOnWhichMessagesMayBeUnderWayStaysOpen) {
   EXPECT_FALSE(table_.routes().back().targets.empty());
 }
 
-TEST_F(Registry, TheLostAreForgotten) {
+TEST_F(Registry, ALostMemberIsForgotten) {
   step({sending(kFirst, 1), listening(kSecond, 1)});
   EXPECT_EQ(step().at(0).unheard, std::vector<std::string>{"gcs"});
   lost_ = {kSecond};
-  EXPECT_EQ(step().at(0).unheard, (std::vector<std::string>{"gcs", "b"})) << "nobody listens there any more";
+  EXPECT_EQ(step().at(0).unheard, (std::vector<std::string>{"gcs", "b"})) << "b has no listener any more";
   hears_.clear();
   lost_ = {kSecond, kFirst};
   registry_.begin_step({});
@@ -252,12 +252,12 @@ TEST_F(Registry, AMemberThatIsLostWhileTheOthersAreAwaitedIsForgotten) {
   lost_ = {kSecond};
   EXPECT_FALSE(registry_.waiting());
   const auto replies = registry_.end_step();
-  ASSERT_EQ(replies.size(), 1U) << "none to the lost";
+  ASSERT_EQ(replies.size(), 1U) << "a lost member gets no reply";
   EXPECT_EQ(replies[0].asker.source, kFirst);
   EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"}));
 }
 
-TEST_F(Registry, AMemberHasSoManyTopicsAndNoMore) {
+TEST_F(Registry, TheNumberOfAMembersTopicsIsLimited) {
   for (const bool listen : {false, true}) {
     const auto request = [&](SourceId source, const std::string& name) {
       RadioRequest made = listen ? listening(source, 7) : sending(source, 7);
@@ -269,7 +269,7 @@ TEST_F(Registry, AMemberHasSoManyTopicsAndNoMore) {
       many.push_back(request(kFirst, "/t" + std::to_string(i)));
     for (const RadioReply& reply : step(many)) ASSERT_EQ(reply.reason, "");
     auto replies = step({request(kFirst, "/one_more")});
-    std::erase_if(replies, [](const RadioReply& reply) { return reply.reason.empty(); });  // what changed for others
+    std::erase_if(replies, [](const RadioReply& reply) { return reply.reason.empty(); });  // keeps only refusals
     ASSERT_EQ(replies.size(), 1U);
     EXPECT_NE(replies[0].reason.find("1024 registered topics at most"), std::string::npos) << replies[0].reason;
     for (const RadioReply& reply : step({request(kSecond, "/t0")})) EXPECT_EQ(reply.reason, "") << "another member may";

@@ -238,7 +238,7 @@ TEST(RouterSync, NamesTheMembersThatItAwaitsAndNoneThatIsGone) {
   EXPECT_EQ(sync.missing_answers(), 0U);
   sync.on_drop(0, 9);
   sync.on_step(0, 0, {{"uav1", 7, Node{1}}, {"uav2", 8, Node{2}}, {"uav3", 9, Node{3}}}, {});
-  EXPECT_FALSE(sync.take()) << "from here on, participant 9 is gone";
+  EXPECT_FALSE(sync.take()) << "from this step on, participant 9 is not a member";
   EXPECT_EQ(awaited(sync), (std::vector<std::string>{"uav1: done", "uav2: done"}));
   EXPECT_EQ(sync.missing_answers(), 2U);
   sync.on_done(7, 0, {{"rt/x", 1}, {"rt/y", 2}});
@@ -287,7 +287,7 @@ void send_in_one_step(RouterSync& sync, std::size_t messages) {
   sync.on_done(7, 0, {{"rt/y", messages}});
 }
 
-TEST(RouterSync, AStepHasAsManyMessagesOfAMemberAsItKeeps) {
+TEST(RouterSync, AMemberMaySendAsManyMessagesInAStepAsAreKept) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   send_in_one_step(sync, kMost);
@@ -301,20 +301,20 @@ TEST(RouterSync, NamesTheSenderOfTooManyMessagesAndTheRemedy) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   send_in_one_step(sync, kMost + 10);
-  EXPECT_FALSE(sync.take()) << "what is missing never comes";
+  EXPECT_FALSE(sync.take()) << "the missing messages never come";
   const std::string advice = "a program may send 256 on a topic in one step (docs/lockstep.md)";
   EXPECT_EQ(awaited(sync), std::vector<std::string>{"uav1: rt/y 4096 of 4106, since the router keeps 4096: " + advice});
   const std::vector<Excess> excesses = sync.take_excesses();
-  ASSERT_EQ(excesses.size(), 1U) << "one for all ten";
+  ASSERT_EQ(excesses.size(), 1U) << "one report for all ten messages";
   EXPECT_EQ(excesses[0].source, 7U);
   EXPECT_EQ(excesses[0].what,
             "sent more than 4096 messages on rt/y in one step, or without announcing them, and the router discards "
             "the further ones; " +
                 advice);
-  EXPECT_TRUE(sync.take_excesses().empty()) << "they are taken";
+  EXPECT_TRUE(sync.take_excesses().empty()) << "take_excesses() has returned them before";
 }
 
-TEST(RouterSync, OfAParticipantThatCountsNoMoreItTellsTheReason) {
+TEST(RouterSync, ReportsWhyAParticipantIsIgnored) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync early(routes), hasty(routes);
   for (std::size_t i = 0; i <= kMost; ++i) early.on_radio(66, i % 2, payload("x"));

@@ -99,7 +99,7 @@ TEST(BestAim, QualityOfWhatIsFacedFallsWithDistanceAndEndsAtTheReach) {
   }
 }
 
-TEST(BestAim, KeepsToTheHeadingsThatAreAllowed) {
+TEST(BestAim, UsesOnlyAllowedHeadings) {
   const BestAim camera(CameraKind{}, kDesired, RulesConfig{});
   const Vector3d ray(6.0, 0.0, -1.0), n_W = -Vector3d::UnitX();
   const double free = camera.find(ray, n_W).q;

@@ -84,7 +84,7 @@ TEST_F(OracleCache, ACacheThatCannotBeWrittenCostsAWarning) {
   EXPECT_TRUE(ask().warnings.empty());
 }
 
-TEST_F(OracleCache, PatienceLimitsWhatIsComputedNotWhatIsKnown) {
+TEST_F(OracleCache, PatienceLimitsTheComputationButNotTheUseOfTheCache) {
   request_.patience_s = 1e-9;
   const OracleReply refused = ask();
   EXPECT_FALSE(refused.summary);

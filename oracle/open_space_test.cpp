@@ -46,7 +46,7 @@ TEST(OpenSpace, AWindowLetsInABodyThatFitsThrough) {
     const RayScene world(house(window));
     for (const double clearance : {0.1, 0.25, 0.5, 1.0, 1.2, 2.0}) {
       const OpenSpace space(world, kHouse, clearance, {});
-      // Between these the lines of the grid may or may not run through the window.
+      // For widths between these, it depends on the grid whether one of its lines runs through the window.
       const bool too_small = window<2.0 * clearance, large = window> 2.0 * clearance + 1.5 * space.step();
       EXPECT_FALSE(too_small && space.reaches(kInside)) << window << ' ' << clearance;
       EXPECT_TRUE(!large || space.reaches(kInside)) << window << ' ' << clearance;
@@ -62,7 +62,7 @@ TEST(OpenSpace, AStartInAClosedHallOpensTheHall) {
   EXPECT_FALSE(OpenSpace(world, kHouse, 0.5, elsewhere).reaches(kInside));
 }
 
-TEST(OpenSpace, NothingDependsOnTheNumberOfThreads) {
+TEST(OpenSpace, TheAnswerDoesNotDependOnTheNumberOfThreads) {
   const RayScene world(test::random_triangles(300, 5));
   const Eigen::AlignedBox3d box(Vector3d(-20.0, -20.0, 0.0), Vector3d(20.0, 20.0, 20.0));
   const OpenSpace one(world, box, 0.5, {}), three(world, box, 0.5, {}, 3);
@@ -76,7 +76,7 @@ TEST(OpenSpace, NothingDependsOnTheNumberOfThreads) {
   EXPECT_GT(reached, 100);
 }
 
-TEST(OpenSpace, AnEmptyWorldIsOpenAndAHugeOneIsAffordable) {
+TEST(OpenSpace, AnEmptyWorldIsOpenAndAHugeOneNeedsFewLines) {
   const RayScene world(TriangleMesh{});
   const OpenSpace space(world, Eigen::AlignedBox3d(Vector3d::Zero()), 0.5, {});
   EXPECT_TRUE(space.reaches({0.0, 0.0, 0.5}));

@@ -163,7 +163,7 @@ TEST(Oracle, APointInAClosedRoomCannotBeReached) {
   EXPECT_DOUBLE_EQ(report.reachable.attainable.score, 2.0);
   EXPECT_EQ(report.reachable.best[2].q, 0.0);
   EXPECT_EQ(report.reachable.best[3].q, 0.0);
-  // A fleet that starts in there has them and not the others.
+  // A fleet that starts on the ground below the room does not get in, either.
   Scenario inside = photographer(2.0);
   inside.fleet[0].start = {0.0, 0.0};
   test::add_box(scene.mesh, {0.0, 0.0, 4.0}, {7.8, 7.8, 5.8});
@@ -298,7 +298,7 @@ TEST(Oracle, AVehicleNeedsRoomForItself) {
   const Scene scene = shaft(1.0);
   OracleConfig config{0.0, 2.5, 64, 1};
   config.berth = Berth::body;
-  // It is 1.27 m across and looks in from above, the small one is 0.64 m across and flies in.
+  // The large one is 1.27 m across and looks in from above, the small one is 0.64 m across and flies in.
   const Scenario large = photographer(1.0), small = small_photographer(1.0);
   const OracleReport from_above = consult_oracle(large, scene, config),
                      from_within = consult_oracle(small, scene, config);
@@ -314,7 +314,7 @@ TEST(Oracle, AVehicleNeedsRoomForItself) {
               radius(photographer(1.0)), Berth::body);
 }
 
-/// A room with a square window, and points on the wall beside it that only who is inside can see.
+/// A room with a square window, and points on the wall beside it, two of them on its inner side.
 Scene room_with_window(double width) {
   Scene scene;
   const double side = 0.5 * (6.0 - width);
@@ -330,10 +330,10 @@ Scene room_with_window(double width) {
   return scene;
 }
 
-TEST(Oracle, APointThatOnlyACameraGetsToIsNotFlyable) {
+TEST(Oracle, APointThatOnlyACameraCanReachIsNotFlyable) {
   const auto flyable = [](const Scenario& scenario, double width) {
     const OracleReport report = consult_oracle(scenario, room_with_window(width), {0.3, 2.5, 64, 1});
-    EXPECT_EQ(report.reachable.attainable.points, 3u) << "a camera passes 1.2 m";
+    EXPECT_EQ(report.reachable.attainable.points, 3u) << "a camera fits through a window of 1.2 m";
     return report.flyable;
   };
   EXPECT_EQ(flyable(photographer(2.0), 1.2), (std::vector<std::uint8_t>{0, 0, 1}));
@@ -341,7 +341,7 @@ TEST(Oracle, APointThatOnlyACameraGetsToIsNotFlyable) {
   EXPECT_EQ(flyable(small_photographer(2.0), 1.2), (std::vector<std::uint8_t>{1, 1, 1}));
 }
 
-TEST(Oracle, TheAnswerDependsOnNothingButTheQuestion) {
+TEST(Oracle, TheAnswerDependsOnlyOnItsInputs) {
   const Scene scene = clutter();
   const OracleReport one = consult_oracle(photographer(1.0), scene, {0.5, 2.5, 32, 1});
   const OracleReport three = consult_oracle(photographer(1.0), scene, {0.5, 2.5, 32, 3});

@@ -66,7 +66,7 @@ TEST(ViewSearch, AViewThatIsGoodEnoughEndsTheSearch) {
   TriangleMesh mesh;
   test::add_box(mesh, {5.5, 0.0, 10.0}, {1.0, 20.0, 18.0});
   const RayScene world(mesh);
-  // So far away that little is perfect, and with normals along which it is farther still.
+  // The points are so far away that few views are perfect; along their normals, the distance is even greater.
   const std::vector<Viewer> cameras = a_camera(6.0, 1.0);
   const ViewSearch search(world, cameras, Berth::camera, RulesConfig{});
   double best = 0.0, enough = 0.0;
@@ -80,7 +80,7 @@ TEST(ViewSearch, AViewThatIsGoodEnoughEndsTheSearch) {
   EXPECT_LT(enough, best);
 }
 
-/// An estimate of pictures that the referee would refuse is none.
+/// The estimate must not contain pictures that the referee would refuse.
 TEST(ViewSearch, FindsOnlyWhatTheRefereeSeesByTheRulesOfTheRun) {
   std::mt19937_64 random(7);
   const auto drawn = [&](float least, float most) {
@@ -112,7 +112,7 @@ TEST(ViewSearch, FindsOnlyWhatTheRefereeSeesByTheRulesOfTheRun) {
   }
 }
 
-TEST(ViewSearch, TheSearchKeepsTheKnownViews) {
+TEST(ViewSearch, TheSearchKeepsViewsThatAreKnownBefore) {
   const RayScene world(TriangleMesh{});
   const std::vector<Viewer> cameras = a_camera(0.5);
   const ViewSearch search(world, cameras, Berth::camera, RulesConfig{});

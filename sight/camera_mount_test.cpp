@@ -14,7 +14,7 @@ namespace {
 
 CameraKind large() { return {CameraConfig{}, GimbalConfig{}, body_shape(VehicleConfig{})}; }
 
-TEST(CameraMount, HidesWhatTheBodyInTheWorldHides) {
+TEST(CameraMount, HidesTheSameAsABodyInTheWorld) {
   RandomStream random(1, "camera_mount_test", 0);
   const CameraKind kind = large();
   const CameraMount mount(kind, true), glass(kind, false);
@@ -38,10 +38,10 @@ TEST(CameraMount, HidesWhatTheBodyInTheWorldHides) {
     split += headings.allowed.any() && !headings.allowed.all() ? 1 : 0;
   }
   EXPECT_GT(hidden, 100);
-  EXPECT_GT(split, 100) << "where the body can be turned out of the way";
+  EXPECT_GT(split, 100) << "rays for which the body can be turned out of the way";
 }
 
-TEST(CameraMount, TurnsTheGimbalNoMoreThanItMust) {
+TEST(CameraMount, TurnsTheGimbalNoMoreThanNecessary) {
   RandomStream random(2, "camera_mount_test", 0);
   CameraKind kind = large();
   kind.gimbal.yaw_limit_deg = 50.0;
@@ -69,7 +69,7 @@ TEST(CameraMount, TurnsTheGimbalNoMoreThanItMust) {
   EXPECT_GT(refused, 100);
 }
 
-TEST(CameraMount, AnythingFixedToTheBodyHides) {
+TEST(CameraMount, EveryPartFixedToTheBodyHides) {
   VehicleConfig vehicle;
   vehicle.links.push_back(
       {.name = "tank", .p_BL = {0.5, 0.0, -0.5}, .box_m = Vector3d(0.1, 0.1, 0.1)});  // before the camera
@@ -79,10 +79,10 @@ TEST(CameraMount, AnythingFixedToTheBodyHides) {
   EXPECT_TRUE(mount.clear_headings(ray).allowed.any());
 }
 
-TEST(CameraKind, AFleetsCamerasAreTakenOnce) {
+TEST(CameraKind, EqualCamerasOfAFleetAreListedOnce) {
   Scenario scenario;
   scenario.fleet.resize(6);
-  scenario.fleet[1].vehicle.camera.exposure_s = 0.5;  // a camera that stands still does not care
+  scenario.fleet[1].vehicle.camera.exposure_s = 0.5;  // has no influence on a camera that stands still
   scenario.fleet[2].vehicle.camera.focal_length_m = 0.03;
   scenario.fleet[3].vehicle.gimbal.pitch_limit_deg = 20.0;
   scenario.fleet[4].vehicle.rotor_radius_m = 0.1;

@@ -47,7 +47,7 @@ RigidBodyState random_state(RandomStream& random, const Vector3d& low, const Vec
   return body;
 }
 
-/// Which points a capture must show: the formulas, then every triangle tried. The verdict `open` is for
+/// Which points a capture must show, by the formulas and by a test of every triangle. The verdict `open` is for
 /// points that a ray near an edge or along the surface does not decide.
 enum class Verdict { hidden, seen, open };
 
@@ -68,7 +68,7 @@ Verdict judge(const InterestPoint& point, const CameraState& state, const Triang
   return miss <= Camera::kSurfaceTolerance ? Verdict::seen : Verdict::hidden;
 }
 
-/// Ground truth without ground: the generated meshes reach below z = 0, so they are lifted.
+/// The brute-force computation has no ground. The generated meshes reach below z = 0, so the test lifts them.
 TEST(Camera, SeesWhatBruteForceSees) {
   RandomStream random(1, "camera_test", 0, 0);
   TriangleMesh mesh = test::random_triangles(150, 11);
@@ -128,7 +128,7 @@ TEST_F(CameraAtWall, ReadyAfterStrictlyMoreThanTheInterval) {
   const RayScene w = world();
   EXPECT_TRUE(c.ready(0));
   c.capture(0, body_, {}, w);
-  EXPECT_FALSE(c.ready(40)) << "exactly 0.1 s";
+  EXPECT_FALSE(c.ready(40)) << "exactly 0.1 s is not more than the interval";
   EXPECT_TRUE(c.ready(41));
   EXPECT_EQ(c.captures(), 1U);
   c.capture(41, body_, {}, w);
@@ -136,7 +136,7 @@ TEST_F(CameraAtWall, ReadyAfterStrictlyMoreThanTheInterval) {
   EXPECT_FALSE(c.ready(81));
 }
 
-TEST_F(CameraAtWall, KeepsTheBest) {
+TEST_F(CameraAtWall, KeepsTheBestQualityOfAPoint) {
   Camera c = camera();
   const RayScene w = world();
   EXPECT_EQ(c.best(), std::vector<float>{0.0F});
@@ -155,7 +155,7 @@ TEST_F(CameraAtWall, KeepsTheBest) {
 
   body_.v_WB = {0.0, 4.0, 0.0};
   const Capture again = c.capture(82, body_, {}, w);
-  ASSERT_EQ(again.detections.size(), 1U) << "seen, though no better";
+  ASSERT_EQ(again.detections.size(), 1U) << "the point is seen again, in no better quality";
   EXPECT_FALSE(again.improved());
   EXPECT_EQ(again.detections[0].best, 1.0F);
   EXPECT_EQ(again.detections[0].q, blurred.detections[0].q);
@@ -189,7 +189,7 @@ TEST_F(CameraAtWall, RemembersWhatItSawTooPoorly) {
   EXPECT_TRUE(c.capture(41, body_, {}, w).detections.empty()) << "too blurred";
   EXPECT_EQ(c.seen(), (std::vector<bool>{true, true, false}));
   body_.v_WB = Vector3d::Zero();
-  EXPECT_EQ(c.capture(82, body_, {}, w).detections.size(), 1U) << "what was seen poorly is asked for again";
+  EXPECT_EQ(c.capture(82, body_, {}, w).detections.size(), 1U) << "a point that was seen too poorly is judged again";
   EXPECT_EQ(c.seen(), (std::vector<bool>{true, true, false}));
 }
 
@@ -242,7 +242,7 @@ TEST_F(CameraAtWall, WithoutALeastScoreWhateverIsInSightCounts) {
   EXPECT_TRUE(camera().capture(0, body_, {}, world()).detections.empty()) << "a point with a score of 0";
 }
 
-/// Share of the picture that the own body hides, body level. Figures of the reference for its own shapes.
+/// Share of the picture that the own body hides if it is level. The figures are the reference's, for its own shapes.
 TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
   struct Row {
     const char* vehicle;
@@ -254,7 +254,7 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
                       {"explorer", 90.0, {30, 48, 64, 75}},
                       {"photographer", 0.0, {0, 0, 16, 32}},
                       {"photographer", 90.0, {7, 18, 26, 42}}};
-  // A sphere of points around the camera, on a ball's surface: each pixel of the picture has some.
+  // Points on the surface of a ball around the camera, so dense that each pixel of the picture has some.
   RandomStream random(5, "camera_test", 1);
   for (const Row& row : rows) {
     const VehicleConfig vehicle = load_vehicle(row.vehicle, source_path("config"));
@@ -313,7 +313,7 @@ TEST_F(CameraAtWall, ReferenceNeedsASurfaceShortBeforeThePoint) {
   EXPECT_TRUE(seen_at(5.01F)) << "the wall is 1 cm before it";
   EXPECT_TRUE(seen_at(5.024F));
   EXPECT_FALSE(seen_at(5.03F));
-  EXPECT_FALSE(seen_at(4.99F)) << "the wall is behind it, where the ray does not go";
+  EXPECT_FALSE(seen_at(4.99F)) << "the wall is behind the point, where the ray does not reach";
 }
 
 TEST_F(CameraAtWall, PointWithoutSurfaceIsNeverSeen) {
@@ -330,7 +330,7 @@ TEST_F(CameraAtWall, PointWithoutSurfaceIsNeverSeen) {
   EXPECT_EQ(seen, (std::vector<std::uint32_t>{0, 3, 4}));
 }
 
-TEST_F(CameraAtWall, GroundHides) {
+TEST_F(CameraAtWall, TheGroundHidesPoints) {
   mesh_ = {};
   test::add_box(mesh_, {5.5, 0.0, 0.0}, {1.0, 8.0, 8.0});
   points_ = {{{5.0F, 0.0F, 0.5F}, {-1.0F, 0.0F, 0.0F}}, {{5.0F, 0.0F, -0.5F}, {-1.0F, 0.0F, 0.0F}}};
@@ -341,7 +341,7 @@ TEST_F(CameraAtWall, GroundHides) {
   EXPECT_EQ(capture.detections[0].point, 0U);
 }
 
-/// Not a test of speed, only figures for the log: CPU time of a capture on a flight that faces the structure.
+/// Prints the CPU time of a capture during a flight that faces the structure, but sets no limit for it.
 TEST(Camera, MeasureCaptureOnMbs) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   const auto points = test::official_points("mbs/mbs_interest_points.pcd");

@@ -23,7 +23,7 @@ double least_room_on(const RayScene& world, const Vector3d& a_W, const Vector3d&
   return least;
 }
 
-TEST(ClearLine, KeepsItsClearanceButForTheTolerance) {
+TEST(ClearLine, KeepsItsClearanceExceptForTheTolerance) {
   std::size_t kept = 0, close = 0, lost = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const RayScene world(test::random_triangles(200, seed));
@@ -33,7 +33,7 @@ TEST(ClearLine, KeepsItsClearanceButForTheTolerance) {
       const Vector3d a_W = test::random_in_box(random, {-40.0, -40.0, -40.0}, {40.0, 40.0, 40.0});
       const Vector3d b_W = a_W + random.uniform(0.0, 12.0) * test::random_unit(random);
       const double apart = 0.005, least = least_room_on(world, a_W, b_W, clearance + 1.0, apart);
-      // Between two samples a tolerance apart, a line passes an edge this much more closely than the samples say.
+      // Between two samples a tolerance apart, a line may pass an edge this much closer than both samples.
       const double between = tolerance * tolerance / (8.0 * (clearance - tolerance));
       if (is_clear_line(world, a_W, b_W, clearance, tolerance)) {
         ASSERT_GE(least, clearance - tolerance - between - 1e-6) << seed << ' ' << i;

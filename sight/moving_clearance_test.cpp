@@ -28,7 +28,7 @@ TEST(MovingClearance, AnswersAsRaySceneDoes) {
   }
 }
 
-TEST(MovingClearance, IsTheMostWhereNothingStands) {
+TEST(MovingClearance, IsTheGreatestValueInAnEmptyWorld) {
   const RayScene rays{TriangleMesh()};
   MovingClearance clearance(kMostM);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(clearance.at(rays, {1.0 * i, 2.0, 3.0}), kMostM);

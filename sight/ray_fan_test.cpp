@@ -1,5 +1,5 @@
-// RayFan against every triangle tried one by one in double precision, against closed surfaces that no ray may leave,
-// and one instruction set against the other.
+// RayFan compared with a test of every triangle in double precision, with closed surfaces that no ray may leave, and
+// between the two instruction sets.
 #include "sight/ray_fan.hpp"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ Tally expect_like_brute_force(const Traced& traced, const Eigen::Vector3f& origi
   return tally;
 }
 
-TEST(RayFan, ScansLikeBruteForce) {
+TEST(RayFan, ScansAgreeWithBruteForce) {
   RandomStream random(1, "ray_fan_test", 0, 0);
   int hits = 0;
   for (const std::size_t count : {1U, 3U, 30U, 300U}) {
@@ -126,7 +126,7 @@ TEST(RayFan, ScansLikeBruteForce) {
   EXPECT_GT(hits, 5000);
 }
 
-TEST(RayFan, AnyListOfDirectionsWillDo) {
+TEST(RayFan, AnyListOfDirectionsAgreesWithBruteForce) {
   RandomStream random(2, "ray_fan_test", 0, 0);
   const Traced traced(test::random_triangles(200, 5));
   for (const std::size_t columns : {1U, 7U, 8U, 80U, 560U}) {
@@ -134,7 +134,7 @@ TEST(RayFan, AnyListOfDirectionsWillDo) {
     for (int i = 0; i < 560; ++i) rays.directions.push_back(random_unit(random).cast<float>());
     expect_like_brute_force(traced, {1.0F, -2.0F, 3.0F}, rays);
   }
-  // Both senses of rows and columns, few rows, narrow and very narrow fans, one ray, none.
+  // Rows and columns in both directions, few rows, narrow and very narrow fans, one ray, none.
   const Matrix3d turn = random_turn(random);
   for (const auto& [rows, columns, width, height] : {std::tuple{16, 40, -0.5, 0.5},
                                                      {16, 40, 0.5, -0.5},
@@ -230,7 +230,7 @@ TriangleMesh icosphere(int levels, double radius) {
   return mesh;
 }
 
-/// From inside, at all corners, along all edges and anywhere: every ray must meet the surface.
+/// Rays from inside to all corners, to places on all edges and in random directions: each must hit the surface.
 void expect_closed(const TriangleMesh& mesh, const Vector3d& low, const Vector3d& high, RandomStream& random) {
   const Traced traced(mesh);
   for (int k = 0; k < 4; ++k) {
@@ -255,7 +255,7 @@ void expect_closed(const TriangleMesh& mesh, const Vector3d& low, const Vector3d
   }
 }
 
-TEST(RayFan, ClosedSurfacesAreTight) {
+TEST(RayFan, NoRayLeavesAClosedSurface) {
   RandomStream random(5, "ray_fan_test", 0, 0);
   const Vector3d inside{1.0, 1.0, 1.0};
   for (const int levels : {0, 2, 4}) expect_closed(icosphere(levels, 3.0), -inside, inside, random);
@@ -270,14 +270,14 @@ TEST(RayFan, ClosedSurfacesAreTight) {
   }
 }
 
-TEST(RayFan, FineSurfacesAreTightFromClose) {
+TEST(RayFan, NoRayPassesAFineSurfaceFromClose) {
   RandomStream random(6, "ray_fan_test", 0, 0);
   TriangleMesh sphere = icosphere(4, 30.0);
   for (auto& vertex : sphere.vertices) vertex += Eigen::Vector3f(80.0F, -50.0F, 35.0F);
   expect_closed(sphere, {80.0, -50.0, 35.0}, {105.0, -45.0, 45.0}, random);
 }
 
-TEST(RayFan, NothingIsMetWhereNothingIs) {
+TEST(RayFan, RaysHitNothingInAnEmptyWorld) {
   const Matrix3d turn = Matrix3d::Identity();
   TriangleMesh degenerate;  // a point, a line, twice the same corner; and corners that no triangle uses
   degenerate.vertices = {{5, 0, 0}, {6, 0, 0}, {7, 0, 0}, {5, 1, 0}, {5, -1, 0.5}};
@@ -286,7 +286,7 @@ TEST(RayFan, NothingIsMetWhereNothingIs) {
     const auto found = Traced(mesh).triangles({0.0F, 0.0F, 0.0F}, lidar_grid(turn));
     EXPECT_EQ(std::ranges::count(found, RayFan::kNothing), 16 * 440);
   }
-  // Beside a real triangle they do no harm.
+  // They must not affect a valid triangle beside them.
   degenerate.triangles.push_back({0, 3, 4});
   EXPECT_GT(expect_like_brute_force(Traced(degenerate), {0.0F, 0.1F, 0.1F}, lidar_grid(turn)).hits, 10);
 }
@@ -311,14 +311,14 @@ TriangleMesh without_what_touches(const TriangleMesh& mesh, const Vector3d& p) {
   return apart;
 }
 
-TEST(RayFan, OriginOnTheSurface) {
+TEST(RayFan, ARayMayBeginOnTheSurface) {
   RandomStream random(7, "ray_fan_test", 0, 0);
   TriangleMesh mesh;
   add_box(mesh, {0.0, 0.0, 2.0}, {4.0, 4.0, 4.0});
   add_box(mesh, {7.0, 0.0, 2.0}, {1.0, 8.0, 8.0});
   const Traced traced(mesh);
   int judged = 0;
-  // A face, an edge, a corner, in the plane of faces beside them.
+  // On a face, on an edge, on a corner, and beside faces in their plane.
   for (const Eigen::Vector3f& origin :
        {Eigen::Vector3f(2.0F, 0.3F, 1.1F), {2.0F, 2.0F, 1.0F}, {2.0F, 2.0F, 4.0F}, {2.0F, 3.0F, 1.0F}}) {
     const TriangleMesh apart = without_what_touches(mesh, origin.cast<double>());
@@ -340,7 +340,7 @@ TEST(RayFan, OriginOnTheSurface) {
   EXPECT_GT(judged, 20000);
 }
 
-TEST(RayFan, FarFromTheWorldsOrigin) {
+TEST(RayFan, AgreesWithBruteForceFarFromTheWorldsOrigin) {
   RandomStream random(8, "ray_fan_test", 0, 0);
   for (const float shift : {1e3F, 1e5F, 1e6F}) {
     TriangleMesh mesh = test::random_triangles(100, 11);
@@ -356,8 +356,8 @@ TEST(RayFan, FarFromTheWorldsOrigin) {
   }
 }
 
-/// Vertices beyond all numbers spoil no other triangle.
-TEST(RayFan, VerticesThatAreNoNumbers) {
+/// Infinite and NaN vertices must not affect other triangles.
+TEST(RayFan, VerticesThatAreNoNumbersDoNotAffectOtherTriangles) {
   TriangleMesh mesh = test::random_triangles(60, 14), spoilt = mesh;
   const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
@@ -367,8 +367,8 @@ TEST(RayFan, VerticesThatAreNoNumbers) {
   EXPECT_EQ(Traced(spoilt).triangles({1.0F, 2.0F, 3.0F}, rays), Traced(mesh).triangles({1.0F, 2.0F, 3.0F}, rays));
 }
 
-/// Where many centres coincide there is nothing to divide by.
-TEST(RayFan, TrianglesAboutOnePoint) {
+/// The triangles have the same centre, so the search tree cannot be divided by centres.
+TEST(RayFan, TrianglesWithOneCommonCentreAgreeWithBruteForce) {
   RandomStream random(9, "ray_fan_test", 0, 0);
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < 300; ++i) {
@@ -380,7 +380,7 @@ TEST(RayFan, TrianglesAboutOnePoint) {
   expect_like_brute_force(Traced(mesh), {0.1F, 3.0F, 0.2F}, grid(16, 100, 1.0, 1.0, test::rotation(0.0, 0.0, -1.5)));
 }
 
-TEST(RayFan, LikeBruteForceOnMbs) {
+TEST(RayFan, AgreesWithBruteForceOnMbs) {
   const auto mbs = test::official_mesh("mbs/mbs.stl");
   if (!mbs) {
     GTEST_SKIP() << "SKEIN_ASSETS is not set";

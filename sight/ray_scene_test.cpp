@@ -1,4 +1,4 @@
-// RayScene against a brute-force intersection in double precision, and against what thin members must do.
+// RayScene compared with a brute-force intersection in double precision, and with what geometry says of thin members.
 #include "sight/ray_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -60,12 +60,12 @@ void expect_nearest_of_all(const TriangleMesh& mesh, const Vector3d& low, const 
   EXPECT_GT(hits, rays / 20);
 }
 
-TEST(RayScene, LikeBruteForceOnGeneratedMesh) {
+TEST(RayScene, AgreesWithBruteForceOnAGeneratedMesh) {
   const TriangleMesh mesh = test::random_triangles(2000, 7);
   expect_nearest_of_all(mesh, {-25.0, -25.0, -25.0}, {25.0, 25.0, 25.0}, 2500);
 }
 
-TEST(RayScene, LikeBruteForceOnMbs) {
+TEST(RayScene, AgreesWithBruteForceOnMbs) {
   const auto mbs = test::official_mesh("mbs/mbs.stl");
   if (!mbs) {
     GTEST_SKIP() << "SKEIN_ASSETS is not set";
@@ -107,7 +107,7 @@ TEST(RayScene, SegmentEndsAtItsEnd) {
 }
 
 /// A ray ends no later than at a triangle that surely blocks it. Most triangles that block a ray do so surely.
-TEST(RayScene, SurelyBlockedIsBlocked) {
+TEST(RayScene, ARayThatATriangleSurelyBlocksIsBlocked) {
   const TriangleMesh mesh = test::random_triangles(300, 13);
   const RayScene world(mesh);
   RandomStream random(7, "ray_scene_test", 0, 0);
@@ -134,7 +134,7 @@ TEST(RayScene, SurelyBlockedIsBlocked) {
 }
 
 /// A bar 2 cm thick, far away, at any angle: rays at its axis hit it, and nothing behind it is ever seen through it.
-TEST(RayScene, ThinMemberIsNeitherMissedNorSeenThrough) {
+TEST(RayScene, AThinMemberIsNeitherMissedNorSeenThrough) {
   RandomStream random(2, "ray_scene_test", 0, 0);
   for (int bar = 0; bar < 40; ++bar) {
     TriangleMesh mesh;
@@ -158,7 +158,7 @@ TEST(RayScene, ThinMemberIsNeitherMissedNorSeenThrough) {
 }
 
 /// Rays aimed exactly at the shared edges and corners of a closed box must not slip through.
-TEST(RayScene, SharedEdgesAreTight) {
+TEST(RayScene, NoRayPassesBetweenTrianglesThatShareAnEdge) {
   TriangleMesh mesh;
   add_box(mesh, {30.0, 7.0, 20.0}, {6.0, 4.0, 2.0}, rotation(0.3, 0.2, 1.0));
   const RayScene world(mesh);
@@ -168,7 +168,7 @@ TEST(RayScene, SharedEdgesAreTight) {
       const Vector3d a = mesh.vertices[triangle[side]].cast<double>();
       const Vector3d b = mesh.vertices[triangle[(side + 1) % 3]].cast<double>();
       for (int i = 0; i < 300; ++i) {
-        // From inside: whichever way the rounding goes, the box is closed.
+        // The rays start inside the box. They must hit it, however coordinates are rounded.
         const Vector3d from = random_in_box(random, {29.7, 6.7, 19.8}, {30.3, 7.3, 20.2});
         const Vector3d target = a + random.uniform() * (b - a);
         ASSERT_NEAR(distance_of(world, {from, (target - from).normalized()}, 100.0), (target - from).norm(), 1e-4);
@@ -177,11 +177,11 @@ TEST(RayScene, SharedEdgesAreTight) {
   }
 }
 
-TEST(RayScene, BodiesHideExceptTheExcused) {
+TEST(RayScene, BodiesHideExceptTheExcludedOnes) {
   VehicleConfig vehicle;
   RayScene world(TriangleMesh{}, {body_shape(vehicle), body_shape(vehicle)});
   const Vector3d from{0.0, 0.0, 10.0}, to{20.0, 0.0, 10.0};
-  EXPECT_FALSE(world.first_hit_distance(from, to)) << "bodies take part from their first pose on";
+  EXPECT_FALSE(world.first_hit_distance(from, to)) << "a body hides nothing before it has a pose";
   world.set_pose(UavIndex{0}, Isometry3d(Eigen::Translation3d(5.0, 0.0, 10.0)));
   world.set_pose(UavIndex{1}, Isometry3d(Eigen::Translation3d(9.0, 0.0, 10.0)));
   auto hit = world.first_hit(from, to - from, 20.0);
@@ -216,7 +216,7 @@ TEST(RayScene, RotorDiscsTurnWithTheBody) {
   }
 }
 
-TEST(RayScene, ABoxOfALinkIsMetAsIfItWereStructure) {
+TEST(RayScene, RaysHitABoxOfALinkAsTheyHitStructure) {
   RandomStream random(7, "ray_scene_test", 0, 0);
   int hits = 0;
   for (int i = 0; i < 50; ++i) {
@@ -239,7 +239,7 @@ TEST(RayScene, ABoxOfALinkIsMetAsIfItWereStructure) {
       const test::TestRay ray{from, (to - from).normalized()};
       const auto expected = test::brute_force_distance(mesh, ray, 10.0, 1e-4);
       const auto hit = world.first_hit(from, ray.direction, 10.0, {.ground = false});
-      // The body itself, a centimetre wide, may stand in front.
+      // The body itself, a centimetre wide, may be in front of the box.
       if (expected.near_edge || (hit && hit->distance < expected.distance - 1e-3 &&
                                  (from + hit->distance * ray.direction - X_WB.translation()).norm() < 0.02)) {
         continue;
@@ -247,7 +247,7 @@ TEST(RayScene, ABoxOfALinkIsMetAsIfItWereStructure) {
       ASSERT_EQ(hit.has_value(), std::isfinite(expected.distance));
       hits += hit.has_value();
       const double gap = hit ? hit->distance - expected.distance : 0.0;
-      ASSERT_NEAR(gap, 0.0, 1e-3) << "the vertices are of single precision";
+      ASSERT_NEAR(gap, 0.0, 1e-3) << "the tolerance is for vertices in single precision";
       std::vector<double> scanned(1);
       world.scan(from, std::vector<Eigen::Vector3f>{ray.direction.cast<float>()}, 1, 10.0, {.ground = false}, scanned);
       ASSERT_TRUE(std::isinf(scanned[0]) == !hit || std::abs(scanned[0] - expected.distance) < 1e-2);
@@ -291,7 +291,7 @@ TEST(RayScene, ScanAgreesWithSingleRays) {
   EXPECT_GT(bodies, 100);
 }
 
-TEST(RayScene, ClearanceLikeBruteForce) {
+TEST(RayScene, ClearanceAgreesWithBruteForce) {
   const TriangleMesh mesh = test::random_triangles(800, 5);
   const RayScene world(mesh);
   RandomStream random(5, "ray_scene_test", 0, 0);
@@ -304,8 +304,9 @@ TEST(RayScene, ClearanceLikeBruteForce) {
   }
 }
 
-/// The same bits when built again, and with the instruction set that Embree likes best the same to a micrometre.
-TEST(RayScene, Repeatable) {
+/// A scene that is built again gives the same bits. With the instruction set that Embree prefers, distances agree to a
+/// micrometre.
+TEST(RayScene, RepeatsBitForBit) {
   const TriangleMesh mesh = test::random_triangles(1500, 9);
   const RayScene first(mesh), second(mesh), native(mesh, {}, true);
   RandomStream random(6, "ray_scene_test", 0, 0);
