@@ -15,7 +15,7 @@ Activity travelled(const Activity& activity) {
   return from_activity(received);
 }
 
-TEST(ActivityConversions, ComeBack) {
+TEST(ActivityConversions, KeepTheirValues) {
   const Activity flies{.mode = "flies to a goal",
                        .goal_W = Vector3d(1.0, -2.5, 3.25),
                        .waits_for = "changi",
@@ -35,7 +35,7 @@ TEST(ActivityConversions, AnActivityOfAnyProgramFitsIntoATable) {
   const Activity read = travelled(odd);
   EXPECT_EQ(read.mode, "a;b c \"");
   EXPECT_EQ(read.waits_for, std::string(160, 'x'));
-  EXPECT_EQ(read.no_way, std::string(159, 'y')) << "half a character";
+  EXPECT_EQ(read.no_way, std::string(159, 'y')) << "a character must not be cut in two";
   EXPECT_FALSE(read.goal_W);
   EXPECT_EQ(read.speed_mps, 0.0);
   EXPECT_EQ(read.cpu_s, 0.0);

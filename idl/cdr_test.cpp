@@ -13,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// Bytes of an XCDR1 payload, laid out by hand: nothing is aligned but by pad().
+/// Bytes of an XCDR1 payload, laid out by hand: only pad() aligns.
 class Layout {
  public:
   Layout() : bytes_{0, 1, 0, 0} {}  // CDR_LE, no options
@@ -185,7 +185,7 @@ TYPED_TEST(EveryType, SurvivesNoise) {
     for (auto& byte : noise) {
       state = state * 6364136223846793005 + 1442695040888963407;  // Knuth's MMIX generator
       byte = static_cast<std::uint8_t>(state >> 56);
-      if (byte < 128) byte = 0;  // lengths that are short enough to lead somewhere
+      if (byte < 128) byte = 0;  // makes small lengths frequent, so that the reader gets beyond them
     }
     noise[0] = 0;
     noise[1] = static_cast<std::uint8_t>(round % 2);

@@ -47,7 +47,7 @@ TEST(Conversions, StampsCountNanosecondsExactly) {
   for (const Tick tick : {0, 1, 41, 399, 400, 401, 400 * 3600 + 7}) EXPECT_EQ(from_time(to_time(tick)), tick);
 }
 
-TEST(Conversions, TrajectoryCommandComesBack) {
+TEST(Conversions, ATrajectoryCommandComesBack) {
   RandomStream random(2, "trajectory", 0);
   for (int i = 0; i < 100; ++i) {
     const TrajectoryCommand command{random_vector(random, 100.0), random_vector(random, 5.0),
@@ -192,7 +192,7 @@ TEST(Conversions, LedgerEntriesComeBackByName) {
   EXPECT_FALSE(from_message(to_message(entry, fleet), std::vector<std::string>{"jurong"}));
 }
 
-TEST(Conversions, AcknowledgementThatWasHitAcknowledgesNothing) {
+TEST(Conversions, ACorruptedAcknowledgementAcknowledgesNothing) {
   RandomStream random(1, "acks", 0);
   for (int round = 0; round < 20; ++round) {
     std::vector<std::uint64_t> captures(1 + random.bits() % 6);
@@ -201,7 +201,7 @@ TEST(Conversions, AcknowledgementThatWasHitAcknowledgesNothing) {
     msg::CaptureAck ack;
     ASSERT_TRUE(decode(whole, ack));
     EXPECT_EQ(from_capture_ack(ack, "changi"), captures);
-    EXPECT_TRUE(from_capture_ack(ack, "jurong").empty()) << "of another UAV";
+    EXPECT_TRUE(from_capture_ack(ack, "jurong").empty()) << "the acknowledgement is for another UAV";
     int read = 0;
     for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
       std::vector<std::uint8_t> hit = whole;
@@ -210,9 +210,9 @@ TEST(Conversions, AcknowledgementThatWasHitAcknowledgesNothing) {
       if (!decode(hit, damaged)) continue;
       ++read;
       const std::vector<std::uint64_t> taken = from_capture_ack(damaged, "changi");
-      EXPECT_TRUE(taken.empty() || taken == captures) << "bit " << bit;  // those of the padding say nothing
+      EXPECT_TRUE(taken.empty() || taken == captures) << "bit " << bit;  // bits of the padding have no meaning
     }
-    EXPECT_GT(read, 64) << "what cannot be read is not a test of the sum";
+    EXPECT_GT(read, 64) << "else the checksum is hardly tested, because most messages are unreadable";
   }
 }
 

@@ -11,7 +11,7 @@
 namespace skein {
 namespace {
 
-TEST(MessageDefinition, IsThatOfRos2) {
+TEST(MessageDefinition, EqualsThatOfRos2) {
   const MessageDefinition& definition = message_definition(type_name<msg::TwistStamped>());
   const std::string line = std::string(80, '=') + "\n";
   EXPECT_EQ(definition.name, "geometry_msgs/msg/TwistStamped");
@@ -33,7 +33,7 @@ TEST(MessageDefinition, KnowsArraysSequencesAndLongNumbers) {
 }
 
 // The definition describes each type that a type contains, once.
-TEST(MessageDefinition, OfEachTypeIsWhole) {
+TEST(MessageDefinition, OfEachTypeIsComplete) {
   const auto check = [](const std::string& wire_type) {
     const MessageDefinition& definition = message_definition(wire_type);
     EXPECT_TRUE(std::regex_match(definition.name, std::regex(R"(\w+/msg/\w+)"))) << definition.name;

@@ -8,7 +8,7 @@
 namespace skein {
 namespace {
 
-TEST(StatusConversions, TheOdometryCarriesHowSureItIs) {
+TEST(StatusConversions, TheOdometryCarriesItsUncertainty) {
   const PoseUncertainty told{{0.1, 0.2, 0.3}, 0.05, 0.02};
   const msg::Odometry odometry = to_odometry(40, "a", RigidBodyState{}, told);
   EXPECT_DOUBLE_EQ(odometry.pose().covariance()[7], 0.04);

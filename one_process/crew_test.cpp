@@ -1,5 +1,5 @@
-// The crew with toys for programs: what a process is to its program is kept up without processes, on one thread and on
-// several.
+// The crew with simple programs ("toys"): it provides without processes what a process gives to its program, on one
+// thread and on several.
 #include "one_process/crew.hpp"
 
 #include <fcntl.h>
@@ -36,7 +36,7 @@ struct Diary {
   std::map<std::string, double> cpu_s;
 };
 Diary* diary = nullptr;
-/// Where those meet that have their turns side by side.
+/// Programs whose turns run in parallel wait here for each other.
 std::latch* meeting = nullptr;
 
 /// Does what its option --do says, in its third turn.
@@ -79,7 +79,7 @@ class Toy final : public bus::FleetMember, public bus::LockstepNode {
     if (what_ == "dies") bus::kill_ourselves();
     if (what_ == "stops") {
       bus::stop_ourselves();
-      ADD_FAILURE() << "it went on";
+      ADD_FAILURE() << "the program went on after it had stopped itself";
     }
     if (what_ == "works") {
       for (const double until_s = thread_cpu_s() + 0.01; thread_cpu_s() < until_s;) {
@@ -215,7 +215,7 @@ TEST_P(CrewTest, EveryEndIsReportedAndTheOthersGoOn) {
   EXPECT_NE(log("refuses").find("no such thing"), std::string::npos);
 }
 
-TEST_P(CrewTest, AProgramThatIsKilledIsGoneWithoutAWord) {
+TEST_P(CrewTest, AKilledProgramEndsWithoutAMessage) {
   start("dies", "dies");
   start("stays", "stays");
   const auto outside = bus::make_bus({.vendor = "inproc"})->join(5);
@@ -223,7 +223,7 @@ TEST_P(CrewTest, AProgramThatIsKilledIsGoneWithoutAWord) {
   rounds(1);
   EXPECT_EQ(reader->matched().size(), 2U);
   rounds(3);
-  EXPECT_EQ(reader->matched().size(), 1U) << "nobody hears of it any more";
+  EXPECT_EQ(reader->matched().size(), 1U) << "the killed program has no endpoints any more";
   EXPECT_FALSE(diary_.destroyed.contains("dies"));
   EXPECT_FALSE(diary_.ended.contains("dies"));
   crew_->obey(shared_lines::Signal{"stays", SIGKILL});
@@ -231,7 +231,7 @@ TEST_P(CrewTest, AProgramThatIsKilledIsGoneWithoutAWord) {
   rounds(1);
   EXPECT_FALSE(diary_.destroyed.contains("stays"));
   EXPECT_TRUE(crew_->empty());
-  start("dies", "stays");  // anew
+  start("dies", "stays");  // restarts it
   rounds(2);
   EXPECT_EQ(diary_.turns["dies"], 5);
 }
@@ -259,7 +259,7 @@ TEST_P(CrewTest, AProgramThatIsKilledOrStoppedBeforeItIsReadyHasEnded) {
   EXPECT_EQ(told.size(), 2U);
   EXPECT_EQ(told["dies"].signal, SIGKILL);
   EXPECT_EQ(told["stops"].code, kExitProcessFailed);
-  EXPECT_TRUE(stopped_.empty()) << "nobody is to continue it";
+  EXPECT_TRUE(stopped_.empty()) << "the launcher must not continue this program";
   EXPECT_NE(log("stops").find("stopped before it was ready"), std::string::npos) << log("stops");
   EXPECT_EQ(diary_.turns["stays"], 3);
 }
@@ -272,12 +272,12 @@ TEST_P(CrewTest, AProgramThatIsAskedToEndDoesSo) {
   rounds(2);
   auto told = ends();
   EXPECT_EQ(told["stays"].code, 7);
-  EXPECT_EQ(told["stops"].code, 7) << "also while it stands still";
+  EXPECT_EQ(told["stops"].code, 7) << "a stopped program ends, too";
   EXPECT_TRUE(crew_->empty());
   EXPECT_TRUE(diary_.destroyed.contains("stays"));
 }
 
-TEST_P(CrewTest, EachWritesToItsOwnLog) {
+TEST_P(CrewTest, EachProgramWritesToItsOwnLog) {
   for (const char* name : {"one", "two", "solo"}) start(name, "stays");
   rounds(40);
   for (const std::string name : {"one", "two", "solo"}) {
@@ -296,7 +296,7 @@ TEST_P(CrewTest, MembersThatShareNothingHaveTheirTurnsSideBySide) {
   std::latch both(2);
   meeting = &both;
   for (const char* name : {"a", "b"}) start(name, "meets");
-  rounds(4);  // in the third each waits for the other
+  rounds(4);  // in the third round, each program waits for the other
   EXPECT_EQ(diary_.turns["a"], 4);
   EXPECT_EQ(diary_.turns["b"], 4);
 }
@@ -315,17 +315,18 @@ TEST_P(CrewTest, AThreadThatSharesATurnWorksForItsProgram) {
   });
   for (const auto* one : notices) EXPECT_EQ(one, &notice);
   for (const auto* one : outputs) EXPECT_EQ(one, &output);
-  EXPECT_EQ(DeathNotice::here(), &notice) << "it goes on with its turn";
+  EXPECT_EQ(DeathNotice::here(), &notice) << "the thread goes on with its own turn";
   DeathNotice::stand_down();
 }
 
-TEST_P(CrewTest, TheServersTimeIsItsOwn) {
+TEST_P(CrewTest, TheCpuTimeOfTheServerIsItsOwn) {
   start("sim_server", "stays");
   start("works", "works");
   rounds(2);
   const double before_s = diary_.cpu_s["sim_server"];
   rounds(2);
-  EXPECT_LT(diary_.cpu_s["sim_server"] - before_s, 0.01) << "in between the other has worked for so long";
+  EXPECT_LT(diary_.cpu_s["sim_server"] - before_s, 0.01)
+      << "the time between the server's turns, in which the other program works, does not count";
   EXPECT_GE(diary_.cpu_s["sim_server"], before_s);
 }
 

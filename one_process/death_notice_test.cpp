@@ -28,7 +28,7 @@ class Shared {
   }
   ~Shared() {
     gone = true;
-    std::latch(1).wait();  // until the other thread has missed it
+    std::latch(1).wait();  // blocks, so that the other thread can use the destroyed object
   }
   static std::atomic<bool> gone;
 };
@@ -44,7 +44,7 @@ std::atomic<bool> Shared::gone = false;
     flies.enter();
     both.count_down();
     while (!Shared::gone) std::this_thread::yield();
-    std::raise(SIGSEGV);  // as a program that uses what is destroyed
+    std::raise(SIGSEGV);  // as if a program had used a destroyed object
   };
   const auto leave = [&] {
     leaves.enter();
@@ -58,7 +58,7 @@ std::atomic<bool> Shared::gone = false;
   ::_exit(99);
 }
 
-TEST(DeathNotice, AProgramThatCallsExitEndsAllBeforeTheOthersMissAnything) {
+TEST(DeathNotice, AProgramThatCallsExitEndsAllBeforeOthersUseDestroyedObjects) {
   if (!sanitizer().empty()) GTEST_SKIP() << "a process with threads that forks; and the end is the sanitizer's";
   for (const int code : {0, 7}) {
     for (const bool from_other_thread : {false, true}) {

@@ -43,14 +43,14 @@ TEST_F(CustodyTest, AReportArrivesInTheStepAfterTheFirstWithALink) {
   EXPECT_EQ(derived(), first(21));
 }
 
-TEST_F(CustodyTest, WithoutALinkItWaits) {
+TEST_F(CustodyTest, WithoutALinkAReportWaits) {
   captured(20, 0);
   EXPECT_EQ(derived(), Deliveries());
   link(150, 151);
   EXPECT_EQ(derived(), first(151));
 }
 
-TEST_F(CustodyTest, ARunThatEndsMeanwhileHasLostIt) {
+TEST_F(CustodyTest, AReportOnItsWayAtTheEndOfTheRunIsLost) {
   captured(200, 0);
   link(0, 300);
   EXPECT_EQ(derived(), Deliveries());
@@ -63,14 +63,14 @@ TEST_F(CustodyTest, ACaptureThatALinkLosesIsSentAgainAfterTenSteps) {
   EXPECT_EQ(derived(), first(41));
 }
 
-TEST_F(CustodyTest, TheFirstOfSeveralOnTheirWayCounts) {
+TEST_F(CustodyTest, OfSeveralCopiesOnTheirWayTheFirstToArriveCounts) {
   captured(20, 0);
   link(0, 300);
   run_.messages = {{20, "alpha", 60}, {30, "alpha", 36}};
   EXPECT_EQ(derived(), first(36));
 }
 
-TEST_F(CustodyTest, CutLinksRouterAndStationStandInTheWay) {
+TEST_F(CustodyTest, AReportWaitsForLinksRouterAndStation) {
   captured(20, 0);
   link(0, 300);
   fault(1.0, 1.5, StationOutage{});  // steps 20 to 29
@@ -91,7 +91,7 @@ TEST_F(CustodyTest, NothingIsKeptForAStationThatIsAboutToComeBack) {
   EXPECT_EQ(derived(), first(31));
 }
 
-TEST_F(CustodyTest, AKilledRouterForgetsWhatWaitsInIt) {
+TEST_F(CustodyTest, AKilledRouterLosesTheMessagesThatWaitInIt) {
   captured(20, 0);
   link(0, 300);
   run_.messages = {{20, "alpha", 45}, {30, "alpha", 44}, {40, "alpha", std::nullopt}};
@@ -100,7 +100,7 @@ TEST_F(CustodyTest, AKilledRouterForgetsWhatWaitsInIt) {
   EXPECT_EQ(derived(), first(51));
 }
 
-TEST_F(CustodyTest, AUavThatComesBackFromDeathSendsAtOnceAndOneThatStoodStillWhenItIsTime) {
+TEST_F(CustodyTest, ARestartedUavSendsAtOnceAndAResumedOneWhenItIsTime) {
   captured(20, 0);
   link(0, 300);
   run_.messages = {{20, "alpha", std::nullopt}};
@@ -125,7 +125,7 @@ TEST_F(CustodyTest, AFaultThatWaitedActsFromItsBeginningOn) {
   captured(20, 0);
   link(0, 300);
   plan_.faults.push_back({.at_s = 0.5, .until_s = 1.5, .action = StationOutage{}, .waits = true});
-  EXPECT_EQ(derived(), first(21)) << "it has not begun";
+  EXPECT_EQ(derived(), first(21)) << "the waiting fault has not begun";
   run_.result["faults"] = Json::array({{{"began_step", 20}}});
   EXPECT_EQ(derived(), first(31));
 }

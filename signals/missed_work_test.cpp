@@ -48,25 +48,25 @@ class MissedWork : public RunSignalsTest {
   results::RunRecord undisturbed_;
 };
 
-TEST_F(MissedWork, IsThatOfAsMuchTimeFromTheStartLessTheWayBack) {
+TEST_F(MissedWork, IsTheWorkOfAnEqualTimeFromTheStartLessTheWayBack) {
   EXPECT_EQ(missed_at(12.0), 0.0);
   EXPECT_EQ(missed_at(12.0 + 40.0 + 4.9), 0.0);
   EXPECT_EQ(missed_at(12.0 + 40.0 + 5.0), 1.0);
   EXPECT_EQ(missed_at(12.0 + 40.0 + 15.0), 2.0);
   EXPECT_EQ(missed_at(12.0 + 40.0 + 16.0), 3.0);
-  EXPECT_EQ(missed_at(80.0), 3.0) << "each point once";
+  EXPECT_EQ(missed_at(80.0), 3.0) << "each point counts once";
   EXPECT_EQ(missed_at(80.0, "b"), 0.0) << "its program was never away";
   EXPECT_THROW(number("missed(a)"), InputError);
 }
 
-TEST_F(MissedWork, IsNothingThatAUavPhotographsEver) {
+TEST_F(MissedWork, LeavesOutPointsThatAnyUavPhotographs) {
   run_.captures = {capture("a", 0, 3.0, {}, 1), capture("b", 0, 59.0, {}, 2)};
   EXPECT_EQ(missed_at(80.0), 1.0);
 }
 
-TEST_F(MissedWork, IsOverWithTheFirstPhotograph) {
+TEST_F(MissedWork, EndsWithTheFirstPhotograph) {
   run_.events.push_back({200 + 10, "captured", "a", "0"});
-  EXPECT_EQ(missed_at(80.0), 3.0) << "that was before the last fault was over";
+  EXPECT_EQ(missed_at(80.0), 3.0) << "this photograph was before the end of the last fault";
   run_.events.push_back({20 * 60, "captured", "a", "1"});
   EXPECT_EQ(missed_at(59.0), 1.0);
   EXPECT_EQ(missed_at(60.0), 0.0);
@@ -78,12 +78,12 @@ TEST_F(MissedWork, BeginsAnewWhenTheProgramIsAwayAgain) {
   run_.events.push_back({20 * 30, "captured", "a", "1"});
   run_.events.push_back({20 * 90, "left", "a", ""});
   run_.events.push_back({20 * 91, "joined", "a", ""});
-  EXPECT_EQ(missed_at(89.0), 0.0) << "it photographs";
+  EXPECT_EQ(missed_at(89.0), 0.0) << "the UAV photographs again";
   EXPECT_EQ(missed_at(91.0 + 40.0 + 4.9), 0.0);
   EXPECT_EQ(missed_at(91.0 + 40.0 + 17.0), 3.0);
 }
 
-TEST_F(MissedWork, IsNotKnownOfAnAbsentUavOrWhileAFaultLasts) {
+TEST_F(MissedWork, IsUnknownForAnAbsentUavAndWhileAFaultLasts) {
   run_.result["faults"].push_back(fault(300, nullptr));
   EXPECT_EQ(missed_at(80.0), 0.0);
   run_.result["faults"].erase(2);
@@ -97,7 +97,7 @@ TEST_F(MissedWork, IsNotKnownOfAnAbsentUavOrWhileAFaultLasts) {
   EXPECT_EQ(missed_at(31.0 + 40.0 + 5.0), 1.0);
 }
 
-TEST_F(MissedWork, OfCapturesThatDoNotCountThereIsNone) {
+TEST_F(MissedWork, IgnoresCapturesThatDoNotCount) {
   scenario_.rules.min_point_score = 0.2;
   undisturbed_.captures[0].q = 0.1;
   undisturbed_.captures[1].reason = run_tables::kUavCollided;
@@ -115,7 +115,7 @@ TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
   run_.events.back().step = 20 * 71;
   EXPECT_EQ(outcome("photographs_again"), Outcome::fails) << "too late";
   fly(0.0);
-  EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "it stands and waits: other properties ask for that";
+  EXPECT_EQ(outcome("photographs_again"), Outcome::holds) << "the UAV stands and waits, which other properties judge";
   run_.events.resize(2);  // no program was ever away
   EXPECT_EQ(outcome("photographs_again"), Outcome::vacuous);
 }
@@ -127,9 +127,9 @@ TEST_F(MissedWork, WorksAgainSaysNothingWhereNoUavWasAway) {
   run_.events.push_back({20 * 50, "captured", "a", "0"});
   EXPECT_EQ(outcome("works_again"), Outcome::holds);
   std::erase_if(run_.events, [](const results::EventRow& row) { return row.step == 200; });
-  EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "it did not come back";
+  EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "the UAV did not come back";
   std::erase_if(run_.events, [](const results::EventRow& row) { return row.step == 100; });
-  EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "nobody was away";
+  EXPECT_EQ(outcome("works_again"), Outcome::vacuous) << "no UAV was away";
 }
 
 }  // namespace

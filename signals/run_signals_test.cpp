@@ -17,7 +17,7 @@
 namespace skein::signals {
 namespace {
 
-TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
+TEST_F(RunSignalsTest, SignalsOfPositionsFollowTheTableOfPoses) {
   for (std::size_t tenth = 0; tenth <= 20; ++tenth) {
     const double t = 0.1 * static_cast<double>(tenth);
     run_.poses.push_back({t, "a", {3.0 * t, 0, 1}, {3, 0, 0}, true, 10.0 - t, 1.0 - 0.25 * t});
@@ -25,17 +25,17 @@ TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
   }
   const std::vector<double> x = number("x(a)"), separation = number("separation"), clearance = number("clearance");
   for (std::size_t k = 0; k < kExchanges; ++k) {
-    const double t = 0.1 * static_cast<double>(k / 2);  // of the last row
+    const double t = 0.1 * static_cast<double>(k / 2);  // the time of the last row of the table
     EXPECT_NEAR(x[k], 3.0 * t, 1e-9) << k;
     EXPECT_NEAR(number("distance(a)")[k], 3.0 * t, 1e-9) << k;
     EXPECT_NEAR(number("charge(a)")[k], 1.0 - 0.25 * t, 1e-9) << k;
-    EXPECT_EQ(number("charge(b)")[k], 1.0) << "has no battery";
+    EXPECT_EQ(number("charge(b)")[k], 1.0) << "b has no battery";
     if (t < 0.999) {
       EXPECT_NEAR(separation[k], std::hypot(3.0 * t, 4.0), 1e-9) << k;
     } else {
-      EXPECT_EQ(separation[k], std::numeric_limits<double>::infinity()) << "one of two is out";
+      EXPECT_EQ(separation[k], std::numeric_limits<double>::infinity()) << "one of the two UAVs is out";
     }
-    EXPECT_NEAR(clearance[k], t < 0.999 ? 5.0 : 10.0 - t, 1e-9) << "of those that are not out";
+    EXPECT_NEAR(clearance[k], t < 0.999 ? 5.0 : 10.0 - t, 1e-9) << "the clearance of UAVs that are not out";
   }
   EXPECT_EQ(number("speed(a)")[20], 3.0);
   EXPECT_EQ(values("alive(b)"), [] {
@@ -45,7 +45,7 @@ TEST_F(RunSignalsTest, TheFleetIsWhereItsTableSays) {
   }());
 }
 
-TEST_F(RunSignalsTest, TheRunWithoutFaultsIsAsLongAsItWas) {
+TEST_F(RunSignalsTest, TheRunWithoutFaultsMayBeShorterOrLonger) {
   for (const double end_s : {1.0, 2.0, 3.0}) {
     results::RunRecord undisturbed = run_;
     for (std::size_t tenth = 0; 0.1 * static_cast<double>(tenth) < end_s + 0.05; ++tenth) {
@@ -85,7 +85,7 @@ TEST_F(RunSignalsTest, MembersLinksAndFaultsFollowEventsAndResult) {
   EXPECT_EQ(healed(), std::nullopt);
 }
 
-TEST_F(RunSignalsTest, AProgramThatDiesForGoodSilencesNothingThatComesAfterIt) {
+TEST_F(RunSignalsTest, AProgramThatDiesForGoodDoesNotDelayTheHealing) {
   const auto healed = [&] { return FolderSignals(run_, scenario_).healed_s(); };
   const Json died{{"kind", "kill"}, {"target", "a"}, {"began_step", 12}, {"ended_step", nullptr}, {"until_s", nullptr}};
   run_.result["faults"] = Json::array({{{"kind", "link"}, {"began_step", 4}, {"ended_step", 8}}, died});
@@ -113,12 +113,12 @@ TEST_F(RunSignalsTest, NumbersOfTheResultAreCalledByTheirKeys) {
   EXPECT_EQ(number("result(uavs)")[9], 2.0) << "a list has a length";
 }
 
-TEST_F(RunSignalsTest, TimeWithoutWorkIsThatOfTheTable) {
+TEST_F(RunSignalsTest, TimeWithoutWorkIsReadFromItsTable) {
   run_.work = {{1.0, "a", 7.0}, {1.0, "b", 3.0}, {2.0, "a", 8.0}, {2.0, "b", 0.0}, {3.0, "a", 9.0}};  // beyond the end
   EXPECT_EQ(number("without_work(a)"), steps({{20, 7}, {40, 8}}));
   EXPECT_EQ(number("without_work(b)"), steps({{20, 3}, {40, 0}}));
   run_.work.clear();
-  EXPECT_EQ(number("without_work(b)"), steps({})) << "nobody knows";
+  EXPECT_EQ(number("without_work(b)"), steps({})) << "the table has no rows for b";
 }
 
 TEST_F(RunSignalsTest, CapturesAreCountedWhenTheyAreTakenDeliveredAndAcknowledged) {
@@ -138,7 +138,7 @@ TEST_F(RunSignalsTest, CapturesAreCountedWhenTheyAreTakenDeliveredAndAcknowledge
   EXPECT_EQ(number("earned"), steps({{2, 1}, {4, 1.3}}));
   EXPECT_EQ(number("delivered_score"), steps({{10, 1}}));
   run_.captures[0].delivered_at_s = run_.captures[1].delivered_at_s = 0.65;
-  EXPECT_EQ(number("acknowledged_and_delivered"), steps({})) << "acknowledged before it was there";
+  EXPECT_EQ(number("acknowledged_and_delivered"), steps({})) << "the acknowledgement came before the delivery";
 }
 
 TEST_F(RunSignalsTest, LostAndLateMessagesAreCountedWhenTheyAreSent) {
@@ -165,7 +165,7 @@ TEST_F(RunSignalsTest, ADeliveryThatDoesNotFollowFromTheRecordIsADifference) {
   run_.captures[1].delivered_at_s = 1.0;
   EXPECT_EQ(differences(), steps({{20, 1}, {21, 0}})) << "early";
   run_.captures.pop_back();
-  EXPECT_EQ(differences(), steps({{21, 1}})) << "the station does not even know of it";
+  EXPECT_EQ(differences(), steps({{21, 1}})) << "the station has no record of it";
   EXPECT_THROW(number("custody_differences"), InputError) << "the faults are not known";
 }
 
@@ -177,7 +177,7 @@ TEST_F(RunSignalsTest, ACollisionIsKnownWhereverItsRowIs) {
   EXPECT_EQ(values("alive(b)").at(40), 1.0);
 }
 
-// A way there, and later one back: found by looking at every pair of exchanges.
+// A path is a link to the station, and later one back. The test searches through all pairs of exchanges.
 TEST_F(RunSignalsTest, APathIsALinkThereAndThenOneBack) {
   std::mt19937_64 random(6);
   int with_path = 0, without = 0;
@@ -217,7 +217,7 @@ TEST_F(RunSignalsTest, APathIsALinkThereAndThenOneBack) {
   EXPECT_GT(without, 30);
 }
 
-TEST_F(RunSignalsTest, WorkThatIsTakenOverIsWhatNoOtherUavWouldHaveDone) {
+TEST_F(RunSignalsTest, TakenOverWorkIsThatWhichNoOtherUavWouldHaveDone) {
   results::RunRecord undisturbed = run_;
   undisturbed.result["score"] = 9.0;
   undisturbed.captures = {capture("a", 0, 0.1, {}, 0), capture("a", 1, 1.0, {}, 1), capture("a", 2, 1.1, {}, 2),
@@ -227,9 +227,9 @@ TEST_F(RunSignalsTest, WorkThatIsTakenOverIsWhatNoOtherUavWouldHaveDone) {
                    capture("b", 2, 1.5, {}, 1), capture("b", 3, 1.6, {}, 0), capture("b", 4, 1.7, {}, 3)};
   EXPECT_EQ(number("work_at_failure(a)", &undisturbed), steps({{10, 2}})) << "points 1 and 2";
   EXPECT_EQ(number("taken_over(a)", &undisturbed), steps({{20, 1}, {30, 2}}));
-  EXPECT_EQ(number("taken_over(b)", &undisturbed), steps({})) << "it is still there";
+  EXPECT_EQ(number("taken_over(b)", &undisturbed), steps({})) << "b has not failed";
   run_.events.pop_back();
-  EXPECT_EQ(number("work_at_failure(a)", &undisturbed), steps({})) << "it never failed";
+  EXPECT_EQ(number("work_at_failure(a)", &undisturbed), steps({})) << "a has not failed";
   run_.result["faults"] = Json::array({{{"target", "b"}, {"began_step", 4}}, {{"target", "a"}, {"began_step", 21}}});
   EXPECT_EQ(number("work_at_failure(a)", &undisturbed), steps({{21, 1}})) << "point 2, from its fault on";
   EXPECT_EQ(number("taken_over(a)", &undisturbed), steps({}));
@@ -288,7 +288,7 @@ TEST_F(RunSignalsTest, MessagesAreCountedByLinkAndTopic) {
                    {"/b/plan", 0, 6},
                    {"/a/captures/a", 0, 3},
                    {"/a/gimbal", 0, 1},
-                   {"/a/plan", 0, 20}},  // of its next life
+                   {"/a/plan", 0, 20}},  // sent after its restart
                   {{"a", "b", "/plan", 0, 2},
                    {"a", "gcs", "/plan", 0, 2},
                    {"a", "gcs", "/captures/a", 0, 8},
@@ -302,12 +302,12 @@ TEST_F(RunSignalsTest, MessagesAreCountedByLinkAndTopic) {
   EXPECT_EQ(number("arrived(a, gcs)"), steps({{3, 1}, {9, 2}, {13, 3}, {21, 4}}));
   EXPECT_EQ(number("arrived(a, gcs, /plan)"), steps({{3, 1}, {13, 2}, {21, 3}}));
   EXPECT_EQ(number("arrived_once(a, gcs, /plan)"), steps({{3, 1}, {21, 2}}))
-      << "a second time at 13, another life at 21";
+      << "a message arrives a second time at 13, and one of the restarted sender at 21";
   EXPECT_EQ(number("arrived_over_open_link(a, b)"), steps({{3, 1}})) << "the second was sent while the link was down";
   EXPECT_EQ(number("in_flight(a, gcs)"), steps({{3, 1}, {4, 2}, {9, 1}, {13, 0}}));
 }
 
-TEST_F(RunSignalsTest, DebugValuesStandUntilTheNext) {
+TEST_F(RunSignalsTest, ADebugValueHoldsUntilTheNextOne) {
   write_recording(run_.dir, {}, {}, {{3, 2.5}, {10, -1.0}});
   EXPECT_EQ(number("debug(a, left)"), steps({{3, 2.5}, {10, -1.0}}));
   EXPECT_EQ(number("debug(b, left)"), steps({}));

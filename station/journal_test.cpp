@@ -61,7 +61,7 @@ TEST_F(JournalTest, AppendedRecordsAreReadBackAndCanBeContinued) {
   EXPECT_EQ(Journal(file_).replayed(), records);
 }
 
-TEST_F(JournalTest, CutAtAnyByteAPrefixOfTheRecordsComesBack) {
+TEST_F(JournalTest, AFileCutAtAnyByteReturnsAPrefixOfTheRecords) {
   const std::vector<TallyRecord> records = some_records(6);
   Journal(file_).append({});
   const std::size_t head = content().size();
@@ -85,7 +85,7 @@ TEST_F(JournalTest, CutAtAnyByteAPrefixOfTheRecordsComesBack) {
   }
 }
 
-TEST_F(JournalTest, AFlippedBitEndsTheFileBeforeItsRecord) {
+TEST_F(JournalTest, AFlippedBitDiscardsItsRecordAndAllLaterOnes) {
   const std::vector<TallyRecord> records = some_records(4);
   Journal(file_).append(records);
   const std::string whole = content();
@@ -100,7 +100,7 @@ TEST_F(JournalTest, AFlippedBitEndsTheFileBeforeItsRecord) {
   }
 }
 
-TEST_F(JournalTest, AnotherRunsJournalIsNotTakenUp) {
+TEST_F(JournalTest, TheJournalOfAnotherRunIsNotContinued) {
   const std::vector<TallyRecord> records = some_records(5);
   Journal(file_, RunId{7}).append(records);
   EXPECT_EQ(Journal(file_, RunId{7}).replayed(), records);
@@ -109,11 +109,11 @@ TEST_F(JournalTest, AnotherRunsJournalIsNotTakenUp) {
     EXPECT_TRUE(journal.replayed().empty());
     journal.append(std::span(records).first(2));
   }
-  EXPECT_EQ(Journal(file_, RunId{8}).replayed().size(), 2U) << "it goes on as a journal of its own";
+  EXPECT_EQ(Journal(file_, RunId{8}).replayed().size(), 2U) << "the file is now the journal of the other run";
   EXPECT_TRUE(Journal(file_, RunId{7}).replayed().empty());
   set_content("no journal");
   Journal(file_, RunId{7}).append(records);
-  EXPECT_EQ(Journal(file_, RunId{7}).replayed(), records) << "what is not a journal is replaced by one";
+  EXPECT_EQ(Journal(file_, RunId{7}).replayed(), records) << "a file that is not a journal is replaced";
 }
 
 TEST_F(JournalTest, AppendedRecordsOutliveAKilledProcess) {

@@ -11,7 +11,7 @@ LedgerEntry named_entry(std::uint64_t index, UavIndex uav, std::uint64_t capture
   return made;
 }
 
-/// The points of a report of these numbers.
+/// The points that a report with these numbers names.
 std::vector<std::uint32_t> resolved(const PointNames& names, UavIndex uav, std::vector<std::uint32_t> numbers) {
   CaptureReport report{uav, 0, 0, 0, {}};
   for (const std::uint32_t number : numbers) report.points.push_back({number, 1.0F, 0.5F, 0.5F});
@@ -28,12 +28,12 @@ TEST(PointNames, EachUavHasItsOwnNumbersInTheOrderOfTheLedger) {
   std::vector<LedgerEntry> ledger = {named_entry(0, UavIndex{0}, 0, {5, 9}), named_entry(1, UavIndex{1}, 0, {9}),
                                      named_entry(2, UavIndex{0}, 1, {9, 2})};
   names.follow(ledger);
-  EXPECT_EQ(resolved(names, UavIndex{0}, {0, 1, 2}), (Points{5, 9, 2})) << "9 has its number already";
+  EXPECT_EQ(resolved(names, UavIndex{0}, {0, 1, 2}), (Points{5, 9, 2})) << "point 9 has its number already";
   EXPECT_EQ(resolved(names, UavIndex{1}, {0}), (Points{9}));
   ledger.push_back(named_entry(3, UavIndex{1}, 0, {}));  // a collision
   ledger.push_back(named_entry(4, UavIndex{1}, 1, {5}));
   names.follow(ledger);
-  EXPECT_EQ(resolved(names, UavIndex{1}, {1, 0}), (Points{5, 9})) << "what was known is not counted again";
+  EXPECT_EQ(resolved(names, UavIndex{1}, {1, 0}), (Points{5, 9})) << "a point that was known gets no second number";
 }
 
 TEST(PointNames, NumbersThatWereNeverGivenNameNoPoint) {

@@ -98,13 +98,13 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
     for (const Refusal reason : {Refusal::unknown, Refusal::borrowed, Refusal::altered}) {
       EXPECT_EQ(score.refused(reason), reason == cases[i].reason ? 1U : 0U) << i << to_string(reason);
     }
-    // audit() says why the capture that the report claims was refused; a token that is unknown claims none.
+    // audit() says why the station refused a report. A report with an unknown token belongs to no capture.
     const std::size_t claimed = cases[i].report.token == of_another.token ? 0 : 1;
     for (std::size_t known = 0; known < 2; ++known) {
       const bool told = cases[i].reason != Refusal::unknown && known == claimed;
       EXPECT_EQ(score.audit(score.ledger()[known]).refused, told ? std::optional(cases[i].reason) : std::nullopt) << i;
     }
-    // The genuine one counts all the same.
+    // The genuine report counts nevertheless.
     score.add_report(1, genuine);
     EXPECT_TRUE(score.end_step(300, 2).score_changed) << i;
   }
@@ -112,14 +112,14 @@ TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
 
 TEST(Scoreboard, AReportMayComeBeforeItsEntry) {
   const CaptureReport report = capture(UavIndex{0}, 0, 100, {point(1, 0.5F)});
-  {  // the entry is here but does not stand yet: it waits as long as it takes
+  {  // the entry is here, but not valid yet: the report waits without a limit
     Scoreboard score = board();
     score.add_entry(entry(0, report));
     score.add_report(0, report);
     for (Tick tick = 100; tick < 300; tick += 20) EXPECT_TRUE(score.end_step(tick, 0).acks[0].empty());
     EXPECT_EQ(score.end_step(300, 1).acks[0].size(), 1U);
   }
-  {  // no entry yet: it waits a little
+  {  // no entry yet: the report waits for a limited time
     Scoreboard score = board();
     score.add_report(0, report);
     for (int step = 0; step < Scoreboard::kPatience; ++step) {
@@ -189,7 +189,7 @@ TEST(Scoreboard, AJournalThatNamesWhatDoesNotExistIsAnError) {
   EXPECT_EQ(score.delivered().score(), 0.0);
 }
 
-/// A random run: a ledger, and for each step the entries that stand and the reports that come in.
+/// A random run: a ledger, and for each step the entries that are valid and the reports that arrive.
 struct Mission {
   struct Step {
     Tick tick;
@@ -254,7 +254,7 @@ TEST(Scoreboard, TheOrderOfArrivalWithinAStepDoesNotMatter) {
     EXPECT_EQ(in_order.timeline(), shuffled.timeline());
     scored += in_order.delivered().score();
   }
-  EXPECT_GT(scored, 100.0) << "the runs are too dull to prove anything";
+  EXPECT_GT(scored, 100.0) << "the runs have too few points to show anything";
 }
 
 TEST(Scoreboard, AStationThatWasKilledGoesOnAsIfNothingHadHappened) {

@@ -37,7 +37,7 @@ class Settlement : public testing::Test {
   StatusPipe no_launcher_{-1};
 };
 
-TEST_F(Settlement, TheJournalIsTheReport) {
+TEST_F(Settlement, TheReportIsComputedFromTheJournal) {
   std::ofstream(folder_ / "scene.json") << R"({"points": [[0,0,0,0,0,1], [1,0,0,0,0,1], [2,0,0,0,0,1]]})";
   // Entries of the ledger that never arrived leave gaps in the numbers.
   Journal(folder_ / "station.journal")
@@ -47,7 +47,7 @@ TEST_F(Settlement, TheJournalIsTheReport) {
   EXPECT_EQ(report()["score"], 1.0);
   EXPECT_EQ(report()["points_detected"], 2);
   EXPECT_EQ(report()["score_by_uav"]["b"], 1.0);
-  EXPECT_FALSE(report().contains("score_earned")) << "only the ledger knows";
+  EXPECT_FALSE(report().contains("score_earned")) << "only the ledger has the earned score";
   EXPECT_EQ(report()["reports_received"], 3);
   const std::string captures = text("captures.csv");
   EXPECT_NE(captures.find("a,0,200,0.5,1,1,0.5,1,0,0.5,0.5,better capture\n"), std::string::npos) << captures;
@@ -71,13 +71,13 @@ TEST_F(Settlement, ACollisionThatTheStationDidNotHearOfVoidsTheScore) {
   }
 }
 
-TEST_F(Settlement, WithoutAnythingDeliveredItIsEmpty) {
+TEST_F(Settlement, WithoutDeliveriesTheReportIsEmpty) {
   std::ofstream(folder_ / "scene.json") << R"({"points": []})";
   settle(folder_, scenario_, RunId::none, no_launcher_);
   EXPECT_EQ(report()["score"], 0.0);
 }
 
-TEST_F(Settlement, WithoutASceneThereIsNone) {
+TEST_F(Settlement, WithoutASceneThereIsNoReport) {
   EXPECT_THROW(settle(folder_, scenario_, RunId::none, no_launcher_), std::runtime_error);
 }
 

@@ -47,7 +47,7 @@ class StationReport : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(StationReport, TheAuditSaysWhatBecameOfEachCapture) {
+TEST_F(StationReport, TheAuditStatesTheFateOfEachCapture) {
   EXPECT_EQ(read_text(folder_ / "captures.csv"),
             "uav,capture,tick,time_s,point,q_seen,q_blur,q_res,q_distance,q,delivered_at_s,reason\n"
             "jurong,0,100,0.25,2,1,1,0.75,0.875,0.75,0.45,\n"
@@ -65,7 +65,7 @@ TEST_F(StationReport, TheTimelineFallsAtACollision) {
             "0.5,1,0.75\n");
 }
 
-TEST_F(StationReport, TheReportHoldsWhatTheResultNeeds) {
+TEST_F(StationReport, TheReportHasTheValuesThatTheResultNeeds) {
   auto report = nlohmann::json::parse(read_text(folder_ / "station.report.json"));
   EXPECT_EQ(report["checksum"].get<std::string>().size(), 64U);
   report.erase("checksum");

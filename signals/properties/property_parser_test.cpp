@@ -55,7 +55,7 @@ TEST(PropertyParser, WindowsAreRead) {
   EXPECT_EQ(*window("from 10 s to 2 * 10 s").until_s, 20.0);
 }
 
-TEST(PropertyParser, VariablesStandForEachOnceAndNeverForTheSame) {
+TEST(PropertyParser, VariablesTakeEachUavOnceAndNeverTheSameUavTwice) {
   EXPECT_EQ(parse("for u in uavs, always held(u) < 3").size(), 3U);
   EXPECT_EQ(parse("for u in explorers, always held(u) < 3")[0].bound, "u = jurong");
   const std::vector<Property> photographers = parse("for p in photographers, always z(p) < 9 m");
@@ -73,7 +73,7 @@ TEST(PropertyParser, WheneverHasItsOwnCondition) {
   EXPECT_EQ(property.signals.size(), 2U);
 }
 
-TEST(PropertyParser, WrongOnesAreRefusedWhereTheyAreWrong) {
+TEST(PropertyParser, WrongPropertiesAreRefusedWithTheColumn) {
   refused("alway held < 3", 0, "there is no signal 'alway'");
   refused("held < 3", 8, "here must be 'until'");
   refused("always held < 3 s", 14, "units do not fit");
