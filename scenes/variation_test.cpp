@@ -52,7 +52,7 @@ TEST(VaryBoxes, APlaceInsideOfABoxStaysInside) {
   }
 }
 
-TEST(VaryBoxes, SomeAreLooseOrIdleFromTheVariedSeedsOn) {
+TEST(VaryBoxes, VariedSeedsHaveSomeLooseAndSomeIdleBoxes) {
   int idle = 0;
   std::vector<double> volumes;
   for (std::uint64_t seed = kVariedSeeds; seed < kVariedSeeds + 200; ++seed) {

@@ -42,7 +42,7 @@ class FaultsByHand : public testing::Test {
   void expect_refused(HandFaults& hand, const view::FaultOrder& order, Tick next, const std::string& words) {
     const std::string before = hand.file_text(), reason = hand.obey(order, next);
     EXPECT_NE(reason.find(words), std::string::npos) << reason;
-    EXPECT_EQ(hand.file_text(), before) << "a refused order leaves something";
+    EXPECT_EQ(hand.file_text(), before) << "a refused order must not change the file";
   }
 
   const Scenario scenario_ = fleet();

@@ -36,7 +36,7 @@ void add(Packed& packed, int to, const Bytes& bytes, RandomStream& random, const
   packed.add(to, std::span<const iovec>(parts), send);
 }
 
-TEST(PackedMessages, AllArriveOnceInOrderAndInAsFewDatagramsAsFit) {
+TEST(PackedMessages, AllArriveOnceInOrderAndInAsFewDatagramsAsPossible) {
   for (std::uint64_t world = 0; world < 60; ++world) {
     RandomStream random(world, "packed", 0);
     const std::size_t largest = 300;

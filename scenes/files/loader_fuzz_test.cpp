@@ -259,7 +259,7 @@ TEST_F(LoaderFuzz, DamagedFilesLoadOrAreRefused) {
   }
 }
 
-TEST_F(LoaderFuzz, EveryTruncationIsRefusedOrSane) {
+TEST_F(LoaderFuzz, EveryTruncatedFileIsRefusedOrReadAsValidData) {
   for (const Kind& kind : corpus()) {
     for (std::size_t size = 0; size < kind.intact.size(); ++size) {
       SCOPED_TRACE(kind.name + ", first " + std::to_string(size) + " bytes");
@@ -270,7 +270,7 @@ TEST_F(LoaderFuzz, EveryTruncationIsRefusedOrSane) {
 }
 
 /// A header that announces far more data than the file holds must not make a reader allocate memory for that data.
-TEST_F(LoaderFuzz, HugePromisesCostNothing) {
+TEST_F(LoaderFuzz, HugeAnnouncedSizesNeedNoMemory) {
   std::string stl = to_stl(small_mesh());
   for (const std::uint32_t count : {2'000'000u, 10'000'000u, 4'294'967'295u}) {
     std::memcpy(&stl[80], &count, sizeof count);
