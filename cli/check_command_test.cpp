@@ -34,7 +34,7 @@ TEST_F(CheckCommand, FaultFilesAreCheckedWithAScenario) {
   const std::string mine = file("m.yaml", "faults: [{at_s: 10, blackout: alpha}]");
   EXPECT_EQ(check({{towers}, {}, {}}), kExitDone);
   EXPECT_EQ(out_.str(), towers + ": OK (fault file, with towers)\n");
-  EXPECT_EQ(check({{mine}, {}, {}}), kExitBadInput) << "alpha is not of towers";
+  EXPECT_EQ(check({{mine}, {}, {}}), kExitBadInput) << "the scenario towers has no UAV alpha";
   CheckOptions options{{mine}, {}, {}};
   options.scenario = programs_.scenario();
   EXPECT_EQ(check(options), kExitDone);
@@ -42,7 +42,7 @@ TEST_F(CheckCommand, FaultFilesAreCheckedWithAScenario) {
 
 TEST_F(CheckCommand, FaultFilesAreCheckedWithConditions) {
   CheckOptions options{{file("f.yaml", "faults: [{at_s: 10, fix_loss: changi}]")}, {}, {}};
-  EXPECT_EQ(check(options), kExitBadInput) << "by default a fix is never lost";
+  EXPECT_EQ(check(options), kExitBadInput) << "with the default conditions, no UAV can lose its GNSS fix";
   options.conditions = "odometry=breezy";
   EXPECT_EQ(check(options), kExitDone);
 }
@@ -68,11 +68,12 @@ TEST_F(CheckCommand, FaultTestsNameTheirScenario) {
   const std::string test = file("t.yaml", faults + "properties: {some: 'eventually score >= 1'}");
   EXPECT_EQ(check({{test}, {}, {}}), kExitDone);
   EXPECT_EQ(out_.str(), test + ": OK (fault test, with small)\n");
-  EXPECT_EQ(check({{file("u.yaml", faults)}, {}, {}}), kExitDone) << "what holds by default is enough";
+  EXPECT_EQ(check({{file("u.yaml", faults)}, {}, {}}), kExitDone)
+      << "a fault test needs no properties besides the default ones";
   EXPECT_EQ(check({{file("w.yaml", faults + "properties: {some: 'eventually scor >= 1'}")}, {}, {}}), kExitBadInput);
 }
 
-TEST_F(CheckCommand, AnAgentIsAskedForTheWordOfItsPlanners) {
+TEST_F(CheckCommand, AnAgentIsAskedWhetherItHasThePlanner) {
   write_script(programs_.dir() / "uav_agent", "case \"$*\" in *orbit*) echo 'no planner orbit' >&2; exit 2;; esac\n");
   const std::string mine = file("mine", "");
   write_script(mine, "[ \"$1\" != --list-planners ] || echo '{\"planners\":[\"orbit\"],\"ground_programs\":[]}'\n");
@@ -98,10 +99,10 @@ TEST_F(CheckCommand, WrongFilesAreRefused) {
 TEST_F(CheckCommand, AScenarioThatTheServerRefusesIsBadInput) {
   write_script(programs_.dir() / "sim_server", "echo 'the mesh is empty' >&2; exit 2");
   EXPECT_EQ(check({{programs_.scenario()}, {}, {}}), kExitBadInput);
-  EXPECT_EQ(err_.str(), programs_.scenario().string() + ": the mesh is empty\n") << "of which file, too";
+  EXPECT_EQ(err_.str(), programs_.scenario().string() + ": the mesh is empty\n") << "the message names the file";
 }
 
-TEST_F(CheckCommand, AllFilesAreCheckedAndTheWorstExitCodeIsTheCommands) {
+TEST_F(CheckCommand, AllFilesAreCheckedAndTheCommandReturnsTheWorstExitCode) {
   const std::string bad = file("bad.yaml", "{name: p, role: pilot}"), odd = file("odd.yaml", "{colour: red}");
   const std::string good = file("v.yaml", "{name: p, role: photographer}"), table = file("t.csv", "x\n");
   EXPECT_EQ(check({{bad, good, odd}, {}, {}}), kExitBadInput);
@@ -109,12 +110,12 @@ TEST_F(CheckCommand, AllFilesAreCheckedAndTheWorstExitCodeIsTheCommands) {
   EXPECT_NE(err_.str().find(bad + ":1: "), std::string::npos) << err_.str();
   EXPECT_NE(err_.str().find(odd + ":1: "), std::string::npos) << err_.str();
   write_script(programs_.dir() / "sim_server", "[ \"$1\" != --golden ] || exit 1; echo crashed >&2; exit 3");
-  EXPECT_EQ(check({{bad}, {table}, {}}), kExitBadInput) << "worse than vectors that differ";
+  EXPECT_EQ(check({{bad}, {table}, {}}), kExitBadInput) << "bad input is worse than vectors that differ";
   EXPECT_EQ(check({{programs_.scenario(), bad}, {table}, {}}), kExitProcessFailed);
   EXPECT_NE(err_.str().find("sim_server --check ended with exit code 3"), std::string::npos) << err_.str();
 }
 
-TEST_F(CheckCommand, ReferenceVectorsGoToTheServerAndItsExitCodeIsOurs) {
+TEST_F(CheckCommand, TheServerChecksReferenceVectorsAndTheCommandReturnsItsExitCode) {
   const std::string table = file("t.csv", "x\n");
   write_script(programs_.dir() / "sim_server", "[ \"$1\" = --golden ] && [ -e \"$2\" ] && exit 1; exit 2");
   EXPECT_EQ(check({{}, {table}, {}}), kExitCheckFailed);

@@ -27,7 +27,7 @@ Words offered(const Words& words) { return completions(words, kKnown); }
 
 std::string text_of(const Words& arguments) { return parse_command_line(arguments).get<HelpText>().text; }
 
-/// Commands of --help and their tasks, the headings over them, in its order.
+/// The commands that --help lists, in its order, each with its task: the heading above it.
 std::vector<std::pair<std::string, std::string>> tasks_of_help() {
   static const std::regex kHeading("([A-Z].*):"), kCommand("  ([a-z-]+) .*");
   std::istringstream lines(text_of({"--help"}));
@@ -48,7 +48,7 @@ Words commands_of_help() {
   return commands;
 }
 
-/// "--seed", "-v" and so on: what an entry of --help begins with.
+/// The options ("--seed", "-v" and so on) with which the entries of --help begin.
 std::set<std::string> options_of_help(const std::string& help) {
   static const std::regex kEntry(R"(\n  (-[-,a-z]*))"), kName("--?[a-z-]+");
   std::set<std::string> options;
@@ -59,7 +59,7 @@ std::set<std::string> options_of_help(const std::string& help) {
   return options;
 }
 
-/// As it is read: roff's marks taken away.
+/// The text of a manual page as a reader sees it, without roff's marks.
 std::string plain(std::string page) {
   page = std::regex_replace(page, std::regex(R"(\\f[BR])"), "");
   return std::regex_replace(page, std::regex(R"(\\-)"), "-");
@@ -89,8 +89,8 @@ TEST(Completion, EveryCommandAndOptionOfHelpIsOfferedAndInTheManual) {
 TEST(Help, ListsEachCommandOnceUnderItsTask) {
   std::map<std::string, std::string> task_of;
   for (const auto& [command, task] : tasks_of_help()) {
-    EXPECT_TRUE(task_of.emplace(command, task).second) << command << " twice";
-    EXPECT_NE(task, "Subcommands") << command << " is of no task";
+    EXPECT_TRUE(task_of.emplace(command, task).second) << command << " is listed twice";
+    EXPECT_NE(task, "Subcommands") << command << " belongs to no task";
   }
   EXPECT_EQ(task_of["run"], "Fly a fleet");
   EXPECT_EQ(task_of["replay"], "Examine runs");
@@ -136,7 +136,7 @@ TEST(Completion, FilesOfPlannersInPythonAreOffered) {
   EXPECT_EQ(offered({"run", "--planner", "py:/no/such/folder/"}), Words{});
 }
 
-TEST(Completion, NothingIsOfferedWhereAnyTextOrFileWillDo) {
+TEST(Completion, NothingIsOfferedForAnOptionThatTakesAnyTextOrFile) {
   EXPECT_EQ(offered({"run", "--out", ""}), Words{});
   EXPECT_EQ(offered({"check", ""}), Words{});
   EXPECT_EQ(offered({"no-command", ""}), Words{});

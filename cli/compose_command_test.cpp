@@ -57,10 +57,11 @@ class ComposeCommand : public testing::Test {
   std::ostringstream out_, err_;
 };
 
-/// Bytes that a file may have: that for docker-compose is longer, and so are some files of keys, but not the first.
+/// Limit of the size of a file [bytes]. The docker-compose file and some key files are longer, the first key file is
+/// not.
 constexpr rlim_t kRoom = 2500;
 
-TEST_F(ComposeCommand, TheShippedFileIsWhatItWrites) {
+TEST_F(ComposeCommand, TheCommandWritesTheFileThatSkeinShips) {
   const Texts words = {"compose", "towers", "--planner", "kios", "--file", "docker/compose.yaml"};
   auto options = parse_command_line(words).get<ComposeOptions>();
   options.file.reset();
@@ -90,7 +91,7 @@ TEST_F(ComposeCommand, OnlyAFileThatSkeinMadeIsReplacedWithoutForce) {
   write_text(file, "services: {}\n");
   try {
     compose_fleet(options, {out_, err_, false});
-    ADD_FAILURE() << "replaced";
+    ADD_FAILURE() << "the file was replaced without --force";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("--file " + file.string() + ": exists already"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("--force"), std::string::npos) << error.what();
@@ -101,7 +102,7 @@ TEST_F(ComposeCommand, OnlyAFileThatSkeinMadeIsReplacedWithoutForce) {
   const std::string first = read_text(file);
   options.run.force = false;
   write_text(file, "");
-  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone) << "made by mktemp, say";
+  EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone) << "an empty file is replaced without --force";
   EXPECT_EQ(read_text(file), first);
   write_text(file, first + "# and more\n");
   EXPECT_EQ(compose_fleet(options, {out_, err_, false}), kExitDone) << "the command can be repeated";
@@ -119,13 +120,13 @@ TEST_F(ComposeCommand, AFullDiskLeavesTheFormerFile) {
     const LimitedFiles full(kRoom);
     try {
       compose_fleet(options, {out_, err_, false});
-      ADD_FAILURE() << "written";
+      ADD_FAILURE() << "the file was written in spite of the full disk";
     } catch (const InputError& error) {
       EXPECT_EQ(error.what(), "--file " + name.string() + ": cannot be written: File too large");
     }
     EXPECT_EQ(read_text(file), before);
   }
-  EXPECT_TRUE(fs::is_symlink(link)) << "it leads to the file that was written";
+  EXPECT_TRUE(fs::is_symlink(link)) << "the command writes to the file to which the link leads";
   EXPECT_EQ(names_in(scratch_.path()), (std::set<std::string>{"compose.yaml", "link.yaml"}));
 }
 
@@ -172,15 +173,15 @@ TEST_F(ComposeCommand, ThePagesKeyLiesBesideTheFileForItsOwnerAlone) {
   for (const char* secret : {"view.key", "view.html"}) EXPECT_EQ(mode_of(folder / secret), 0600u) << secret;
   EXPECT_NE(read_text(folder / "view.html").find("value=\"" + key + "\""), std::string::npos);
   EXPECT_NE(read_text(folder / "view.html").find("http://127.0.0.1:8080/enter"), std::string::npos);
-  EXPECT_EQ(yaml.find(key), std::string::npos) << "neither on a command line nor in an environment";
+  EXPECT_EQ(yaml.find(key), std::string::npos) << "the key is neither on a command line nor in an environment";
   EXPECT_NE(yaml.find("127.0.0.1:8080:8080"), std::string::npos);
   EXPECT_NE(yaml.find("./fleet.view"), std::string::npos) << "wherever both are taken";
   EXPECT_NE(err_.str().find((folder / "view.html").string()), std::string::npos);
   EXPECT_EQ(file_of({"--view", "192.0.2.7:8123", "--file", file}), kExitDone);
-  EXPECT_NE(read_text(folder / "view.key").substr(0, 64), key) << "a new one each time";
+  EXPECT_NE(read_text(folder / "view.key").substr(0, 64), key) << "each call draws a new key";
   EXPECT_NE(read_text(file).find("192.0.2.7:8123:8080"), std::string::npos);
   EXPECT_NE(read_text(file).find("--view-name=192.0.2.7"), std::string::npos);
-  EXPECT_THROW(file_of({"--view"}), InputError) << "to where?";
+  EXPECT_THROW(file_of({"--view"}), InputError) << "--view needs an address";
   EXPECT_THROW(file_of({"--view", "flier:8080", "--file", file}), InputError);
   EXPECT_THROW(file_of({"--view", "--speed", "2", "--clock", "realtime", "--file", file}), InputError);
   EXPECT_THROW(file_of({"--view", "--pause-at", "2", "--clock", "realtime", "--file", file}), InputError);
@@ -216,7 +217,7 @@ TEST_F(ComposeCommand, KeysAreNeverOverwritten) {
   EXPECT_FALSE(before.empty());
   write_text(scratch_.path() / "file", "");
   EXPECT_THROW(keys({"towers", "--out", scratch_.path() / "file" / "keys"}), InputError);
-  EXPECT_THROW(parse_command_line({"keys", "towers"}), InputError) << "where?";
+  EXPECT_THROW(parse_command_line({"keys", "towers"}), InputError) << "--out is missing";
 }
 
 TEST_F(ComposeCommand, AFullDiskLeavesNoPartOfTheKeys) {
@@ -225,7 +226,7 @@ TEST_F(ComposeCommand, AFullDiskLeavesNoPartOfTheKeys) {
     const LimitedFiles full(kRoom);
     try {
       keys({"towers", "--out", folder});
-      ADD_FAILURE() << "written";
+      ADD_FAILURE() << "the keys were written in spite of the full disk";
     } catch (const std::system_error& error) {
       EXPECT_NE(std::string(error.what()).find(folder.string()), std::string::npos) << error.what();
     }
@@ -257,7 +258,7 @@ TEST_F(ComposeCommand, ADebuggedProgramWaitsAndNoProgramIsTakenForDead) {
   }
 }
 
-/// With a client of Docker that is a script, whose engine is there until a file is.
+/// A script replaces Docker's client. Its engine is available until a certain file exists.
 class ComposeUp : public testing::Test {
  protected:
   ComposeUp() {
@@ -294,7 +295,7 @@ esac
   std::ostringstream out_, err_;
 };
 
-TEST_F(ComposeUp, AFolderWithFilesOfTheNamesThatItUsesIsNotTaken) {
+TEST_F(ComposeUp, AFolderWithFilesThatItWouldOverwriteIsRefused) {
   for (const char* name : {"compose.yaml", "compose.log", "agents"}) {
     fs::create_directories(programs_.dir() / "out");
     write_text(programs_.dir() / "out" / name, "mine");
@@ -314,8 +315,8 @@ TEST_F(ComposeUp, ALauncherThatMayOpenTooFewFilesIsRefusedBeforeTheEngineIsAsked
   EXPECT_FALSE(fs::exists(gone()));
 }
 
-// The second command has made its checks, and does not fly yet, when the first one takes the folder.
-TEST_F(ComposeUp, TwoAtOnceWithoutOutGetFoldersOfTheirOwn) {
+// The first command takes the folder after the second one has made its checks, but before the second one flies.
+TEST_F(ComposeUp, TwoCommandsAtOnceWithoutOutGetDifferentFolders) {
   const fs::path before = fs::current_path(), usual = default_results_dir("small", "hover", 0);
   const std::string first = programs_.dir() / usual;
   write_text(programs_.dir() / "first", "mkdir -p " + first + "; echo first >" + first + "/result.json\n");
@@ -329,7 +330,7 @@ TEST_F(ComposeUp, TwoAtOnceWithoutOutGetFoldersOfTheirOwn) {
   EXPECT_TRUE(fs::exists(first + "-2/result.json"));
 }
 
-TEST_F(ComposeUp, AnEngineThatGoesAwayIsReportedOnceAndWhatMayBeLeftIsNamed) {
+TEST_F(ComposeUp, AnEngineThatGoesAwayIsReportedOnceWithWhatMayBeLeft) {
   write_text(programs_.dir() / "server", "touch " + gone().string() + "\n");
   EXPECT_EQ(up(), kExitProcessFailed) << err_.str();
   const std::string err = err_.str(), what = "the Docker engine does not answer any more";
@@ -353,8 +354,8 @@ TEST_F(ComposeUp, TheLogOfARestartedContainerHasItsLaterOutput) {
   EXPECT_EQ(log_of("uav_agent-beta").find("started again"), std::string::npos) << log_of("uav_agent-beta");
 }
 
-// A container may end with any number.
-TEST_F(ComposeUp, AContainerThatFailsIsNoEngineThatGoesAway) {
+// A container may end with any exit code, so its exit code says nothing about the engine.
+TEST_F(ComposeUp, AFailedContainerIsNotReportedAsALostEngine) {
   write_text(programs_.dir() / "server", "touch " + (programs_.dir() / "over").string() + "\n");
   EXPECT_EQ(up(), kExitProcessFailed) << err_.str();
   EXPECT_NE(err_.str().find("exit code 12"), std::string::npos) << err_.str();
@@ -381,7 +382,7 @@ TEST(Options, FleetsInContainersHaveTheFlightOptionsOfRun) {
   EXPECT_EQ(merge.dir, "there");
   EXPECT_EQ(merge.scenario, "s.yaml");
   EXPECT_EQ(merge.assets, "data");
-  EXPECT_THROW(parse_command_line({"merge"}), InputError) << "of what?";
+  EXPECT_THROW(parse_command_line({"merge"}), InputError) << "the results folder is missing";
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_F(ConvertCommand, RefusesFilesThatAreNotFaultTestsAndChangesNothing) {
     for (const auto& files : given) {
       try {
         convert(files, in_place);
-        ADD_FAILURE() << "accepted";
+        ADD_FAILURE() << "the file was accepted";
       } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find(other_.string() + ":1: faults: is missing"), std::string::npos)
             << error.what();

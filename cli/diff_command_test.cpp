@@ -44,12 +44,12 @@ class DiffCommand : public ::testing::Test {
   std::ostringstream out_;
 };
 
-TEST_F(DiffCommand, AResultThatIsNoneIsRefusedWithItsFileAndKey) {
+TEST_F(DiffCommand, AnInvalidResultIsRefusedWithItsFileAndKey) {
   write("a", "result.json", result_of("skein run towers"));
   write("b", "result.json", "{}");
   try {
     diff();
-    ADD_FAILURE() << "compared";
+    ADD_FAILURE() << "the runs were compared";
   } catch (const InputError& error) {
     EXPECT_EQ(error.what(), (folder_.path() / "b/result.json").string() +
                                 ": is damaged: status: is missing, so it is not the result of a run");
@@ -94,10 +94,10 @@ TEST_F(DiffCommand, ARunThatHasLostItsRecordingIsNotTheSame) {
       EXPECT_NE(out_.str().find("  recording.mcap: only in the " + owner + " run\n"), std::string::npos) << out_.str();
     }
     for (const std::string one : {"a", "b"}) std::filesystem::remove(folder_.path() / one / "result.json");
-    EXPECT_EQ(diff(), kExitCheckFailed) << "nothing says that it was to record nothing";
+    EXPECT_EQ(diff(), kExitCheckFailed) << "the result does not say that the run was to record nothing";
     std::filesystem::remove(folder_.path() / run / "recording.mcap");
   }
-  EXPECT_EQ(diff(), kExitDone) << "neither has one";
+  EXPECT_EQ(diff(), kExitDone) << "neither run has a recording";
 }
 
 TEST_F(DiffCommand, ARunThatWasToldToRecordNothingHasNoRecording) {

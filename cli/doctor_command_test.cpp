@@ -45,7 +45,7 @@ TEST_F(DoctorCommand, TheProgramHasTheUsersEnvironment) {
   EXPECT_EQ(read_text(told), "17\n");
 }
 
-TEST_F(DoctorCommand, ItsExitCodeIsOurs) {
+TEST_F(DoctorCommand, TheCommandReturnsTheProgramsExitCode) {
   for (const int code : {kExitDone, kExitCheckFailed, kExitBadInput}) {
     write_script(programs_.dir() / "skein_doctor", "exit " + std::to_string(code));
     EXPECT_EQ(consult_doctor({}), code);

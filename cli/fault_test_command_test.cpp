@@ -16,7 +16,7 @@ namespace {
 using report::xml_elements;
 using report::XmlElement;
 
-/// Writes a report whose digest names the vendor and the chaos, and a line that describes the flight.
+/// A sim_server that writes a report, whose digest names the DDS vendor and the chaos, and a line about the flight.
 constexpr const char* kFlyingServer = R"(
 faults=no; dds=none
 for word in $arguments; do
@@ -40,13 +40,13 @@ class FaultTestCommand : public testing::Test {
     programs_.script("station", R"(echo '{"score": 3.0, "score_earned": 4.0}' > "$out/station.report.json")");
   }
 
-  /// @param digest  as the shell spells it.
+  /// Installs a sim_server that reports this digest. @param digest  a word in the syntax of the shell
   void serve(const std::string& digest) {
     std::string body = kFlyingServer;
     body.replace(body.find("DIGEST"), 6, digest);
     write_script(programs_.dir() / "sim_server", "arguments=\"$*\"" + std::string(kReadOptions) + body);
   }
-  /// @param property  the text of the test's own one
+  /// Writes a fault test with one property. @param property  the text of the property
   void test_file(const std::string& name, const std::string& property, const std::string& more = "") {
     std::filesystem::create_directories(programs_.dir() / "tests");
     write_text(programs_.dir() / "tests" / (name + ".yaml"),
@@ -60,7 +60,7 @@ class FaultTestCommand : public testing::Test {
     options.out = programs_.dir() / "results";
     return run_tests(options, {out_, err_, false});
   }
-  /// Where the property of a test stands.
+  /// File and line of the property of a test, as messages name them.
   std::string place(const std::string& name) const {
     return (programs_.dir() / "tests" / (name + ".yaml")).string() + ":3";
   }
@@ -72,7 +72,7 @@ class FaultTestCommand : public testing::Test {
   std::ostringstream out_, err_;
 };
 
-TEST_F(FaultTestCommand, SaysWhatPassedAndWhatDidNot) {
+TEST_F(FaultTestCommand, PrintsWhichTestsPassedAndWhichFailed) {
   test_file("a_good", "always result(score) == 3");
   test_file("b_bad", "always result(score) >= 5");
   EXPECT_EQ(run(), kExitCheckFailed);
@@ -82,7 +82,7 @@ TEST_F(FaultTestCommand, SaysWhatPassedAndWhatDidNot) {
   EXPECT_TRUE(std::filesystem::exists(programs_.dir() / "results" / "b_bad" / "result.json"));
 }
 
-TEST_F(FaultTestCommand, AllPassed) {
+TEST_F(FaultTestCommand, ReturnsZeroIfAllTestsPass) {
   test_file("good", "always result(score) == 3");
   EXPECT_EQ(run(), kExitDone);
   EXPECT_EQ(out_.str(), "PASS good\n1 passed, 0 failed\n");
@@ -100,12 +100,12 @@ TEST_F(FaultTestCommand, NothingFliesWhenAFileIsWrong) {
               std::string::npos);
     EXPECT_NE(std::string(error.what()).find("c_wrong.yaml:3:54: properties.mine: there is no program"),
               std::string::npos)
-        << "all are named";
+        << "all wrong files are named";
   }
   EXPECT_EQ(flights(), "");
 }
 
-TEST_F(FaultTestCommand, TheRunWithoutFaultsIsFlownOnceForAll) {
+TEST_F(FaultTestCommand, TheRunWithoutFaultsIsFlownOnceForAllTests) {
   test_file("a", "finally result(score) == undisturbed_score");
   test_file("b", "finally result(score) == undisturbed_score");
   EXPECT_EQ(run(), kExitDone) << out_.str();
@@ -127,7 +127,7 @@ TEST_F(FaultTestCommand, RepetitionsMayTakeTurns) {
   EXPECT_EQ(flights(), "yes cyclonedds calm\nyes fastdds calm\nyes cyclonedds calm\nyes cyclonedds 2\n");
 }
 
-TEST_F(FaultTestCommand, AnotherDigestIsAFailure) {
+TEST_F(FaultTestCommand, ARepetitionWithAnotherDigestIsAFailure) {
   serve("${SKEIN_CHAOS:-calm}");
   test_file("a", "always result(score) == 3", "expect: {same_digest: [again, chaos]}\n");
   EXPECT_EQ(run(), kExitCheckFailed);
@@ -153,7 +153,7 @@ TEST_F(FaultTestCommand, EachSeedIsATestOfItsOwn) {
   EXPECT_EQ(seeds(), "4\n5\n9\n4\n5\n9\n");
 }
 
-TEST_F(FaultTestCommand, SideBySideTheOutputIsTheSame) {
+TEST_F(FaultTestCommand, TestsThatFlyAtOnceGiveTheSameOutput) {
   for (const char* name : {"a", "b", "c", "d", "e"})
     test_file(name, std::string(name) == "c" ? "always result(score) == 9" : "always result(score) == 3");
   EXPECT_EQ(run(), kExitCheckFailed);
@@ -164,7 +164,7 @@ TEST_F(FaultTestCommand, SideBySideTheOutputIsTheSame) {
   EXPECT_EQ(out_.str(), alone);
 }
 
-TEST_F(FaultTestCommand, VerboseTellsWhatWasSeen) {
+TEST_F(FaultTestCommand, VerbosePrintsTheObservedValues) {
   test_file("good", "always result(score) >= 2");
   TestOptions options;
   options.verbose = true;
@@ -175,7 +175,7 @@ TEST_F(FaultTestCommand, VerboseTellsWhatWasSeen) {
       << out_.str();
 }
 
-TEST_F(FaultTestCommand, AReportForOtherPrograms) {
+TEST_F(FaultTestCommand, WritesAReportForOtherPrograms) {
   test_file("a_good", "always result(score) == 3");
   test_file("b_bad<&\">", "always result(score) >= 5");
   TestOptions options;
@@ -237,7 +237,7 @@ TEST_F(FaultTestCommand, ABadReportOrSeedIsReportedBeforeAnythingFlies) {
   refused(options, "--agent: ");
 }
 
-TEST_F(FaultTestCommand, AnAgentOfOnesOwnFliesTheTests) {
+TEST_F(FaultTestCommand, TheAgentProgramOfTheUserFliesTheTests) {
   write_script(programs_.dir() / "mine",
                "[ \"$1\" != --list-planners ] || { echo '{}'; exit 0; }\n"
                "echo \"$*\" >> \"$(dirname \"$0\")/mine.calls\"\n");

@@ -62,7 +62,7 @@ TEST_F(MergeCommand, MergingTwiceGivesTheSameResult) {
   EXPECT_EQ(results::read_result_file(dir()), result);
 }
 
-TEST_F(MergeCommand, AResultThatIsNoneIsNamedAndMadeAgain) {
+TEST_F(MergeCommand, AnInvalidResultIsNamedAndMadeAgain) {
   for (const char* text : {"{}", "[]", "null", R"({"status": "completed", "memory_mb": "9"})"}) {
     write_text(result_file(), text);
     EXPECT_EQ(merge(), kExitDone) << err_.str();
@@ -86,7 +86,7 @@ TEST_F(MergeCommand, ADamagedReportIsNamedAndTheResultStays) {
   EXPECT_EQ(read_text(result_file()), result);
 }
 
-TEST_F(MergeCommand, AReportWithoutWhatAllHaveIsDamaged) {
+TEST_F(MergeCommand, AReportWithoutAKeyOfEveryReportIsDamaged) {
   ASSERT_EQ(merge(), kExitDone) << err_.str();
   const std::string result = read_text(result_file());
   for (const Json& json : {Json::object(), Json{{"score", "x"}}, Json{{"score", -1.0}}}) {
@@ -113,10 +113,11 @@ TEST_F(MergeCommand, AChangedNumberInAReportIsDamage) {
   EXPECT_EQ(results::read_result_file(dir())["score"], 2.5);
   changed.erase(kChecksum);
   write_report("station", changed);
-  EXPECT_EQ(merge(), kExitDone) << "as from an earlier version: " << err_.str();
+  EXPECT_EQ(merge(), kExitDone) << "a report without a checksum is accepted, as from an earlier version: "
+                                << err_.str();
 }
 
-TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
+TEST_F(MergeCommand, ADamagedReportIsMadeAgainFromTheBooks) {
   programs_.script("station", "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n");
   truncate("station");
   write_text(dir() / run_folder::kJournal, "the journal");
@@ -126,11 +127,12 @@ TEST_F(MergeCommand, ADamagedReportIsMadeAnewFromTheBooks) {
 
   programs_.script("station", "exit 3\n");
   truncate("station");
-  EXPECT_NE(refusal().find(report("station").string() + ": is damaged"), std::string::npos) << "the books are, too";
+  EXPECT_NE(refusal().find(report("station").string() + ": is damaged"), std::string::npos)
+      << "the books are damaged, too";
   EXPECT_EQ(results::read_result_file(dir())["score"], 2.25);
 }
 
-TEST_F(MergeCommand, TheResultIsMadeOfTheReportThatWasChecked) {
+TEST_F(MergeCommand, TheResultIsMadeFromTheReportThatWasChecked) {
   programs_.script("station",
                    "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n"
                    "echo '{}' > \"$out/sim_server.report.json\"\n");
@@ -154,12 +156,12 @@ TEST_F(MergeCommand, TheFolderOfAFleetThatFliesIsLeftAlone) {
   EXPECT_FALSE(fs::exists(options_.dir));
 }
 
-TEST_F(MergeCommand, DamagedTablesAreNamedWithAnExitCode) {
+TEST_F(MergeCommand, DamagedTablesAreNamedAndTheCommandFails) {
   ASSERT_EQ(merge(), kExitDone) << err_.str();
   write_text(dir() / run_folder::kScoreTimeline, "time_s,points,score\n1,2,3\n2,x,3\n");
   EXPECT_EQ(merge(), kExitCheckFailed);
   EXPECT_NE(err_.str().find("score_timeline.csv makes sense for 1 rows only ("), std::string::npos) << err_.str();
-  EXPECT_EQ(results::read_result_file(dir())["score"], 2.5) << "the reports have the result";
+  EXPECT_EQ(results::read_result_file(dir())["score"], 2.5) << "the result needs only the reports";
 }
 
 TEST_F(MergeCommand, TheKeysThatOnlyTheLauncherWritesStay) {
@@ -173,7 +175,7 @@ TEST_F(MergeCommand, TheKeysThatOnlyTheLauncherWritesStay) {
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(merge(), kExitDone) << err_.str();
     const Json result = results::read_result_file(dir());
-    EXPECT_EQ(result["score"], 2.5) << "by the station's report";
+    EXPECT_EQ(result["score"], 2.5) << "the score is that of the station's report";
     for (const auto& [key, value] : launchers.items()) EXPECT_EQ(result[key], value) << key;
   }
   std::string damaged = read_text(result_file());

@@ -59,7 +59,7 @@ TEST(OptionChecks, AFleetOfNoUavsIsRefusedInAFewWords) {
   }
 }
 
-TEST(OptionChecks, ListsHaveNoEmptyItems) {
+TEST(OptionChecks, ListsWithEmptyItemsAreRefused) {
   for (const Arguments& arguments :
        {Arguments{"compare", "--uavs", "1,,2"}, Arguments{"compare", "--uavs=1,"}, Arguments{"compare", "--uavs", ",1"},
         Arguments{"oracle", "towers", "--clearance", "0.5,,1"}, Arguments{"bench", "--sizes", "1", ",2"},
@@ -73,7 +73,7 @@ TEST(OptionChecks, ListsHaveNoEmptyItems) {
   }
 }
 
-TEST(OptionChecks, NoOptionHasAnEmptyValue) {
+TEST(OptionChecks, EmptyValuesOfOptionsAreRefused) {
   for (const Arguments& arguments :
        {Arguments{"run", "--keep-maps="}, Arguments{"run", "--keep-maps=", "towers"}, Arguments{"run", "--record="},
         Arguments{"run", "--view="}, Arguments{"run", "--network="}, Arguments{"run", "--force="},
@@ -84,7 +84,8 @@ TEST(OptionChecks, NoOptionHasAnEmptyValue) {
         << arguments[0] << ' ' << arguments[1] << ": " << said_of(arguments);
   }
   EXPECT_EQ(said_of({"run", "--keep-maps", "towers"}), "accepted");
-  EXPECT_EQ(said_of({"run", "--planner", "exec:fly --height="}), "accepted") << "it belongs to a program's command";
+  EXPECT_EQ(said_of({"run", "--planner", "exec:fly --height="}), "accepted")
+      << "the empty value belongs to the command of the user's program";
 }
 
 TEST(OptionChecks, OnlyARegularFileIsWrittenTo) {
@@ -102,7 +103,7 @@ TEST(OptionChecks, OnlyARegularFileIsWrittenTo) {
   }
 }
 
-TEST(OptionChecks, UnitsOfASweepTakeMinutes) {
+TEST(OptionChecks, UnitMinutesMustBePositiveAndNeedAnExecutor) {
   for (const char* wrong : {"nan", "0", "inf"}) {
     EXPECT_NE(said_of({"compare", "--executor", "local", "--unit-minutes", wrong}), "accepted") << wrong;
   }
@@ -114,7 +115,7 @@ TEST(OptionChecks, AMistypedCommandIsNamed) {
   EXPECT_NE(said_of({"frobnicate"}).find("there is no command 'frobnicate'; known are: "), std::string::npos);
 }
 
-TEST(OptionChecks, PathsAreInUtf8) {
+TEST(OptionChecks, PathsThatAreNotInUtf8AreRefused) {
   const auto said = [](const Arguments& arguments) -> std::string {
     try {
       check_paths(arguments);
@@ -124,10 +125,11 @@ TEST(OptionChecks, PathsAreInUtf8) {
     }
   };
   EXPECT_EQ(said({"run", "--out", "caf\xc3\xa9 'x'\n"}), "");
-  EXPECT_NE(said({"run", "--out=caf\xe9"}).find("--out=caf\xe9"), std::string::npos) << "Latin-1";
+  EXPECT_NE(said({"run", "--out=caf\xe9"}).find("--out=caf\xe9"), std::string::npos)
+      << "the message quotes the path, which is in Latin-1";
 }
 
-TEST(OptionChecks, TheCurrentFolderExists) {
+TEST(OptionChecks, AMissingCurrentFolderIsReported) {
   const ScratchDir scratch;
   const std::filesystem::path before = std::filesystem::current_path(), gone = scratch.path() / "gone";
   std::filesystem::create_directory(gone);

@@ -10,7 +10,8 @@
 namespace skein::cli {
 namespace {
 
-/// A sim_server that writes this answer to the file after --oracle, and its arguments beside itself.
+/// A script that replaces sim_server. It writes this answer to the file after --oracle, and its arguments to a file in
+/// its own folder.
 std::string oracle_script(const std::filesystem::path& dir, const std::string& answer) {
   return "echo \"$*\" > '" + (dir / "arguments").string() +
          "'\nwhile [ \"$1\" != --oracle ]; do shift; done\ncat > \"$2\" <<'END'\n" + answer + "\nEND\n";
@@ -21,7 +22,7 @@ constexpr const char* kAnswer =
   "reachable": {"points": 8, "score": 7.5, "coarse_points": 8, "coarse_score": 7.25, "change_percent": 3.448},
   "outside": {"points": 5, "score": 4.5, "coarse_points": 5, "coarse_score": 4.5, "change_percent": 0.0}})";
 
-/// As sim_server writes answers: with a number for each point.
+/// The answers in the form in which sim_server writes them: with a number for each point.
 std::string rows(std::vector<std::string> answers) {
   Json all = Json::array();
   for (const std::string& text : answers) {
@@ -82,7 +83,7 @@ TEST_F(OracleCommand, ARunIsEstimatedByItsOwnRules) {
   EXPECT_EQ(arguments().find("--rules"), std::string::npos) << arguments();
 }
 
-TEST_F(OracleCommand, HandsOnWhatItIsAskedAndPrintsJson) {
+TEST_F(OracleCommand, PassesItsOptionsToTheServerAndPrintsJson) {
   answer(rows({kAnswer}));
   options_.scene_seed = 4;
   options_.assets = "data";
@@ -115,7 +116,7 @@ TEST_F(OracleCommand, SeveralClearancesMakeATable) {
   EXPECT_EQ(Json::parse(out_.str()), (Json{{"rows", {Json::parse(kAnswer), second}}}));
 }
 
-/// With a plan, as sim_server tells what is in its cache, too.
+/// An answer with a plan. sim_server also adds a plan that is in its cache to an answer.
 std::string with_plan() {
   Json answer = Json::parse(kAnswer);
   answer["plan"] = {{"score", 6.0},
@@ -151,7 +152,7 @@ TEST_F(OracleCommand, ThePlanIsShownOnlyWithItsOption) {
   EXPECT_EQ(Json::parse(out_.str()), Json::parse(kAnswer));
 }
 
-TEST_F(OracleCommand, ARunTellsAPlanThatIsKnown) {
+TEST_F(OracleCommand, TheAnswerToARunHasAPlanThatIsKnown) {
   answer(rows({with_plan()}));
   EXPECT_EQ(attainable_of(run_of("mbs")).attainable["plan"],
             Json::parse(R"({"points": 7, "score": 6.0, "flown_score": 6.6})"));
@@ -168,7 +169,7 @@ TEST_F(OracleCommand, FailuresAreReported) {
   EXPECT_THROW(run(), std::runtime_error);
 }
 
-TEST_F(OracleCommand, ARunGetsItsNumbersOrAHint) {
+TEST_F(OracleCommand, ARunGetsTheEstimateOrAHint) {
   answer(rows({kAnswer}));
   const AttainableAnswer known = attainable_of(run_of("mbs"));
   EXPECT_EQ(known.attainable, Json::parse(R"({"points": 8, "score": 7.5, "clearance_m": 0.5,

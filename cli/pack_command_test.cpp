@@ -33,7 +33,7 @@ class PackCommand : public ::testing::Test {
   const ScratchFolder folder_;
 };
 
-TEST_F(PackCommand, ATargetThatIsNoFileIsRefusedBeforeAnythingIsDone) {
+TEST_F(PackCommand, ATargetThatIsNotAFileIsRefusedBeforeAnythingIsDone) {
   EXPECT_EQ(refusal(folder_.path()), folder_.path().string() + ": is a folder; name the archive, as skein.tar.gz");
   const std::filesystem::path file = folder_.path() / "file";
   std::ofstream(file) << "text";
@@ -42,7 +42,7 @@ TEST_F(PackCommand, ATargetThatIsNoFileIsRefusedBeforeAnythingIsDone) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path().string() + ".parts"));
 }
 
-/// Programs that `ldd` takes, in place of Skein's.
+/// Replaces Skein's programs with binaries that `ldd` can read.
 class PackedPrograms : public PackCommand {
  protected:
   PackedPrograms() {
@@ -72,7 +72,7 @@ class PackedPrograms : public PackCommand {
   const std::filesystem::path archive_ = folder_.path() / "skein.tar.gz";
 };
 
-TEST_F(PackedPrograms, AFileThatIsNoProgramIsNamed) {
+TEST_F(PackedPrograms, AFileThatIsNotAProgramIsNamed) {
   const std::filesystem::path station = programs_.dir() / "station";
   std::filesystem::remove(station);
   write_script(station, "");
@@ -83,7 +83,7 @@ TEST_F(PackedPrograms, AFileThatIsNoProgramIsNamed) {
 TEST_F(PackedPrograms, OnAFullDiskTheFormerArchiveStaysAndIsNamed) {
   write_text(archive_, "former");
   {
-    const LimitedFiles full(20 << 10);  // less than a program has
+    const LimitedFiles full(20 << 10);  // less than the size of a program
     EXPECT_EQ(trouble(), "cannot write " + archive_.string() + ": File too large");
   }
   expect_only_the_former_archive();

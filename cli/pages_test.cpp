@@ -1,4 +1,4 @@
-// The commands that our pages show are commands, and the changelog is that of this version.
+// Skein has the commands, parameters and variables that the pages show, and the changelog is up to date.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -46,12 +46,13 @@ std::vector<std::string> commands_of(const fs::path& page) {
   return commands;
 }
 
-TEST(Pages, ShowCommandsThatThereAre) {
+TEST(Pages, ShowOnlyCommandsThatExist) {
   std::size_t read = 0;
   for (const fs::path& page : pages()) {
     for (const std::string& command : commands_of(page)) {
       const bool is_shown_as_a_form = command.find("...") != std::string::npos;
-      if (is_shown_as_a_form || command.starts_with("test --sanitize")) continue;  // ./skein's own
+      if (is_shown_as_a_form || command.starts_with("test --sanitize"))
+        continue;  // the script ./skein executes it itself
       EXPECT_NO_THROW(parse_command_line(shell_words(command))) << page << ": skein " << command;
       ++read;
     }
@@ -76,7 +77,7 @@ std::string source_of_planner(const std::string& name) {
 }
 
 // A parameter of a planner that a page shows has a key in that planner's sources.
-TEST(Pages, ShowParametersThatThereAre) {
+TEST(Pages, ShowOnlyParametersThatExist) {
   static const std::regex kPlanner(R"(\b([a-z]+):((?:[a-z_]+=[0-9a-z.]+,?)+))"), kKey(R"(([a-z_]+)=)");
   static const std::set<std::string> kUavs = {"jurong", "raffles", "sentosa", "changi", "nanyang"};
   std::size_t read = 0;
@@ -85,9 +86,9 @@ TEST(Pages, ShowParametersThatThereAre) {
     for (std::string line; std::getline(in, line);) {
       for (std::sregex_iterator it(line.begin(), line.end(), kPlanner), end; it != end; ++it) {
         const std::string source = source_of_planner(it->str(1)), given = it->str(2);
-        if (source.empty()) continue;  // of a planner that the page writes
+        if (source.empty()) continue;  // the page itself shows how to write this planner
         for (std::sregex_iterator key(given.begin(), given.end(), kKey); key != end; ++key) {
-          if (kUavs.contains(key->str(1))) break;  // what follows is another UAV's planner
+          if (kUavs.contains(key->str(1))) break;  // the planner of another UAV follows
           EXPECT_NE(source.find('"' + key->str(1) + '"'), std::string::npos) << page << ": " << it->str(0);
           ++read;
         }

@@ -37,7 +37,7 @@ class OptionsOfRun : public testing::Test {
   const std::string small_ = programs_.scenario();
 };
 
-TEST_F(OptionsOfRun, AreThoseOfItsCommand) {
+TEST_F(OptionsOfRun, AreThoseOfTheRunsCommand) {
   const RunOptions run = options("skein run " + small_ + " --planner hover --seed 3 --out " + run_.string());
   EXPECT_EQ(run.scenario, small_);
   EXPECT_EQ(run.planner, "hover");
@@ -45,12 +45,12 @@ TEST_F(OptionsOfRun, AreThoseOfItsCommand) {
   EXPECT_FALSE(run.out);
 }
 
-TEST_F(OptionsOfRun, CannotRunAProgramAtTheGroundStationThatTheFleetHasNot) {
+TEST_F(OptionsOfRun, AreRefusedIfTheyRunAStationProgramThatTheFleetDoesNotHave) {
   RunOptions run = options("skein run " + small_ + " --planner hover --seed 3");
   run.replay = ReplayOf{"recording.mcap", {}, {"gcs"}, {}};
   try {
     plan_fleet(run, programs_.dir());
-    ADD_FAILURE() << "accepted";
+    ADD_FAILURE() << "the command was accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "gcs: this fleet has no program at the ground station");
   }

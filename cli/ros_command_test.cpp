@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Install prefixes as colcon makes them, in AMENT_PREFIX_PATH.
+/// Creates install prefixes as colcon makes them, and lists them in AMENT_PREFIX_PATH.
 class RosPrefixes : public testing::Test {
  protected:
   RosPrefixes() {
@@ -50,8 +50,8 @@ class RosPrefixes : public testing::Test {
   std::optional<std::string> former_;
 };
 
-TEST_F(RosPrefixes, TheFirstWithTheStepLibraryIsThatOfSkeinRosForPlannersAndForShells) {
-  put(prefix("begun") / "share/skein_ros/fastdds_udp.xml");  // colcon has not built the library
+TEST_F(RosPrefixes, PlannersAndShellsUseTheFirstPrefixWithTheStepLibrary) {
+  put(prefix("begun") / "share/skein_ros/fastdds_udp.xml");  // colcon has not built the library yet
   for (const char* name : {"one", "other"}) {
     put(prefix(name) / "lib/libskein_step.so");
     put(prefix(name) / "share/skein_ros/fastdds_udp.xml");

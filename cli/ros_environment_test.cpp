@@ -33,7 +33,7 @@ std::string evaluated(const RosPlace& place, const std::string& command) {
   return text;
 }
 
-TEST(RosEnvironment, IsOfTheUavsDomain) {
+TEST(RosEnvironment, HasTheDomainOfTheUav) {
   RunOptions options = options_for("jurong");
   EXPECT_EQ(ros_place(options).domain, 42);
   *options.ros_env = "raffles";
@@ -43,7 +43,7 @@ TEST(RosEnvironment, IsOfTheUavsDomain) {
   EXPECT_EQ(ros_place(options).domain, 47);
 }
 
-TEST(RosEnvironment, OfAnUnknownUavNamesThoseThatThereAre) {
+TEST(RosEnvironment, ForAnUnknownUavNamesTheUavsOfTheFleet) {
   try {
     ros_place(options_for("nobody"));
     FAIL();
@@ -52,7 +52,7 @@ TEST(RosEnvironment, OfAnUnknownUavNamesThoseThatThereAre) {
   }
 }
 
-TEST(RosEnvironment, HasThePeersOfItsNetworkAlone) {
+TEST(RosEnvironment, HasOnlyThePeersOfItsNetwork) {
   RunOptions options = options_for("jurong");
   options.network = "{usual: host, jurong: {peers: [uav-jurong, router.jurong]}, raffles: {peers: [other]}}";
   EXPECT_THAT(ros_place(options).peers, ElementsAre("uav-jurong", "router.jurong"));
@@ -60,7 +60,7 @@ TEST(RosEnvironment, HasThePeersOfItsNetworkAlone) {
   EXPECT_TRUE(ros_place(options).peers.empty());
 }
 
-TEST(RosEnvironment, IsEvaluatedByAShell) {
+TEST(RosEnvironment, CanBeEvaluatedByAShell) {
   const RosPlace place{.uav = "jurong", .domain = 42, .peers = {"10.0.0.2", "uav-jurong"}};
   EXPECT_EQ(evaluated(place, "echo $ROS_DOMAIN_ID"), "42\n");
   const std::string uri = evaluated(place, "printf '%s' \"$CYCLONEDDS_URI\"");

@@ -9,7 +9,7 @@
 namespace skein::cli {
 namespace {
 
-/// The options after they were a command line.
+/// The options that Skein reads from the command line of the given options.
 RunOptions parsed_again(const RunOptions& given) {
   const auto again = parse_command_line(arguments_of(given)).get<RunOptions>();
   EXPECT_EQ(arguments_of(again), arguments_of(given));
@@ -53,7 +53,7 @@ TEST(RunArguments, OfARunAreReadBack) {
   EXPECT_FALSE(again.report);
   EXPECT_EQ(again.keep_maps_s, 2.5);
   EXPECT_NE(again.command.find("'--planner=hover,jurong=exec:./mine --speed 3, 4'"), std::string::npos)
-      << "as a shell takes it: " << again.command;
+      << "the command is quoted for a shell: " << again.command;
   EXPECT_TRUE(again.secure);
 }
 
@@ -64,13 +64,13 @@ TEST(RunArguments, OfAFlightAreReadBackFromJson) {
   EXPECT_EQ(flown.seed, run.seed);
   EXPECT_EQ(flown.duration_s, run.duration_s);
   EXPECT_EQ(flown.out, run.out);
-  EXPECT_EQ(flown.command, parsed_again(run).command) << "that of the same command line";
+  EXPECT_EQ(flown.command, parsed_again(run).command) << "the command is that of the same command line";
   EXPECT_EQ(parse_command_line(flight_words(run)).get<RunOptions>().planner, run.planner);
   run.one_process = true;  // excludes --dds
   EXPECT_EQ(flight_of(flight_words(run).back()).command, parsed_again(run).command);
 }
 
-TEST(RunArguments, OfAFlightKeepWhateverIsInAPathOrNumber) {
+TEST(RunArguments, OfAFlightKeepEveryPathAndNumberExactly) {
   RunOptions run = unusual_run();
   run.scenario = "a \"quoted\"\n\\ näme'.yaml";
   run.out = "{}, \"seed\":7/\t";
@@ -83,10 +83,10 @@ TEST(RunArguments, OfAFlightKeepWhateverIsInAPathOrNumber) {
   EXPECT_EQ(flown.duration_s, run.duration_s);
   EXPECT_EQ(flown.stop_at_s, run.stop_at_s);
   run.out = "caf\xe9";
-  EXPECT_THROW(flight_words(run), InputError) << "JSON cannot have it as it is";
+  EXPECT_THROW(flight_words(run), InputError) << "JSON cannot represent the value";
 }
 
-TEST(RunArguments, OfAFlightAreRefusedIfTheyAreNoOptionsOfOne) {
+TEST(RunArguments, OfAFlightAreRefusedIfAFlightCannotHaveThem) {
   const auto refusal = [](const std::vector<std::string>& words) -> std::string {
     try {
       parse_command_line(words);

@@ -25,7 +25,7 @@ echo '{"points":[[1,2,3,0,0,1]]}' > "$out/scene.json"
 echo '{"type":"ended","status":"completed"}' >&3
 )";
 
-/// A member that leaves when the server has left its report, as a real one does at the run's end.
+/// A member that ends once the server has written its report, as a real member does at the end of a run.
 constexpr const char* kMember = R"(
 until [ -e "$out/scene.json" ]; do sleep 0.01; done
 )";
@@ -50,7 +50,7 @@ class RunCommand : public ::testing::Test {
   std::ostringstream out_, err_;
 };
 
-TEST_F(RunCommand, AnAgentOfOnesOwnFliesInThePlaceOfUavAgent) {
+TEST_F(RunCommand, TheAgentProgramOfTheUserFliesInThePlaceOfUavAgent) {
   programs_.script("uav_agent", "exit 9\n");
   write_script(
       programs_.dir() / "mine",
@@ -62,7 +62,7 @@ TEST_F(RunCommand, AnAgentOfOnesOwnFliesInThePlaceOfUavAgent) {
   EXPECT_NE(read_text(*options_.out / "uav_agent-beta.log").find("config " + source_path("config")), std::string::npos);
 }
 
-TEST_F(RunCommand, TheCommandThatRepeatsItNamesTheAgentOfTheEnvironment) {
+TEST_F(RunCommand, TheRepeatCommandNamesTheAgentProgramOfTheEnvironment) {
   const std::string mine = programs_.dir() / "mine";
   write_script(
       mine, "[ \"$1\" != --list-planners ] || { echo '{\"planners\":[\"hover\"],\"ground_programs\":[]}'; exit; }\n" +
@@ -94,7 +94,7 @@ TEST_F(RunCommand, AProgramThatIsNotAnAgentIsRefusedBeforeTheStart) {
   options_.agent = programs_.dir() / "broken";
   try {
     run();
-    ADD_FAILURE() << "it flew";
+    ADD_FAILURE() << "the run was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("two of a kind"), std::string::npos) << error.what();
   }
@@ -117,7 +117,7 @@ TEST_F(RunCommand, AGoodRunLeavesAResultAndATable) {
   EXPECT_NE(out_.str().find("digest    ab"), std::string::npos);
 }
 
-TEST_F(RunCommand, TheOracleIsAskedOnceTheRunIsOver) {
+TEST_F(RunCommand, TheLauncherAsksTheOracleOnceTheRunIsOver) {
   const std::string oracle = R"(
 case "$*" in *--oracle*)
   while [ "$1" != --oracle ]; do shift; done
@@ -134,7 +134,7 @@ esac
   EXPECT_EQ(result()["attainable"], Json::parse(R"({"points": 1, "score": 0.75, "clearance_m": 0.5,
                                                     "outside": {"points": 0, "score": 0}})"));
   EXPECT_NE(out_.str().find("of 5, 1 attainable"), std::string::npos) << out_.str();
-  // The one point was never in a picture.
+  // The only point of the scenario was never in a picture.
   EXPECT_EQ(result()["losses"]["never_in_picture"], (Json{{"points", 1}, {"score", 0.75}}));
   EXPECT_NE(out_.str().find("lost      never in the picture         0.750       1 points\n"), std::string::npos)
       << out_.str();
@@ -156,12 +156,12 @@ TEST_F(RunCommand, ThePageOfARunCanBeMadeAgainOrLeftOut) {
   EXPECT_NE(text.find("skein run &#39;what was typed&#39;"), std::string::npos);
   std::filesystem::remove(page);
   EXPECT_EQ(make_reports({{"nowhere", *options_.out}}, {out_, err_, false}), kExitBadInput);
-  EXPECT_EQ(read_text(page), text) << "the other one gets its page";
+  EXPECT_EQ(read_text(page), text) << "the folder that has a result gets its page";
   EXPECT_EQ(make_reports({{*options_.out}}, {out_, err_, false}), kExitDone) << err_.str();
   options_.force = true;
   options_.report = false;
   ASSERT_EQ(run(), kExitDone);
-  EXPECT_FALSE(std::filesystem::exists(page)) << "a stale page is none of this run";
+  EXPECT_FALSE(std::filesystem::exists(page)) << "the page of an earlier run must not stay in the folder";
 }
 
 TEST_F(RunCommand, APageThatCannotBeWrittenIsAWarning) {
@@ -196,7 +196,7 @@ TEST_F(RunCommand, AnUnknownDebugUavIsBadInput) {
   EXPECT_THROW(run(), InputError);
 }
 
-TEST_F(RunCommand, ADeadAgentIsNamedAndTheServerTold) {
+TEST_F(RunCommand, ADeadAgentIsNamedAndTheLauncherTellsTheServer) {
   let_the_server_wait();
   programs_.script("uav_agent", std::string("[ $uav = alpha ] || { echo last words >&2; exit 9; }\n") + kMember);
   EXPECT_EQ(run(), kExitProcessFailed);
@@ -225,7 +225,7 @@ TEST_F(RunCommand, ADeadServerEndsTheRunAsAborted) {
   EXPECT_EQ(result()["sim_time_s"], 12.5);
   EXPECT_TRUE(result()["digest"].is_null());
   EXPECT_NE(err_.str().find("sim_server failed: signal 11"), std::string::npos);
-  EXPECT_EQ(err_.str().find("uav_agent-alpha failed"), std::string::npos) << "it was ended by us";
+  EXPECT_EQ(err_.str().find("uav_agent-alpha failed"), std::string::npos) << "the launcher ended it itself";
 }
 
 TEST_F(RunCommand, CtrlCStopsTheServerAndKeepsTheResult) {
@@ -250,7 +250,7 @@ echo '{"type":"ended","status":"interrupted"}' >&3
 )";
 
 TEST_F(RunCommand, CtrlCBeforeTheFirstStepBlamesNoProgram) {
-  // They do not know that the run is over, and do not end well when they are ended.
+  // These programs do not know that the run is over, and fail when the launcher ends them.
   for (const char* name : {"comm_router", "station", "uav_agent"}) {
     programs_.script(name, "trap 'exit 3' TERM; echo 1 >> \"$out/started\"; while :; do sleep 0.01; done");
   }
@@ -266,7 +266,7 @@ TEST_F(RunCommand, CtrlCBeforeTheFirstStepBlamesNoProgram) {
 
 TEST_F(RunCommand, AfterCtrlCTheWaitIsShortAndNoProgramIsBlamed) {
   options_.patience = 0.02;
-  // One planner hangs, and the server never gets to the end of its step.
+  // The planner of beta hangs, so the server, which waits for it, never ends its step.
   programs_.script("sim_server", "kill -INT $PPID; trap '' TERM; while :; do sleep 0.01; done");
   programs_.script("uav_agent", "[ $uav = alpha ] || trap '' TERM; while :; do sleep 0.01; done");
   EXPECT_EQ(run(), kExitInterrupted);
@@ -274,8 +274,8 @@ TEST_F(RunCommand, AfterCtrlCTheWaitIsShortAndNoProgramIsBlamed) {
   EXPECT_EQ(err_.str().find("failed"), std::string::npos) << err_.str();
 }
 
-TEST_F(RunCommand, ACrashAfterCtrlCIsNamedAllTheSame) {
-  // Before the first step it would be ended at once, and might not get as far as its crash.
+TEST_F(RunCommand, ACrashAfterCtrlCIsReportedAllTheSame) {
+  // Before the first step, the launcher would end the server at once, perhaps before its crash.
   programs_.script("sim_server", R"(echo '{"type":"progress","t":12.5,"mission_s":10}' >&3; sleep 0.2)"
                                  "\nkill -INT $PPID; read line <&4\n" +
                                      std::string(kInterruptedReport) + "kill -SEGV $$");
@@ -298,7 +298,7 @@ TEST_F(RunCommand, ACommandTakesThePlaceOfAnAgent) {
   options_.planner = "hover,beta=exec:" + command;
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(result()["planner"], (Json{{"alpha", "hover"}, {"beta", "exec:" + command}}));
-  EXPECT_EQ(result()["score"], 0.0) << "what a command says of the score is not news";
+  EXPECT_EQ(result()["score"], 0.0) << "a score that a command reports does not count";
   EXPECT_EQ(read_text(*options_.out / "uav_agent-beta.log"), "hello, world\n");
   const std::string environment = "\n" + read_text(*options_.out / "env.txt");
   for (const std::string& variable :
@@ -306,11 +306,11 @@ TEST_F(RunCommand, ACommandTakesThePlaceOfAnAgent) {
         "SKEIN_SCENARIO=" + programs_.scenario().string(), "SKEIN_OUT=" + options_.out->string()}) {
     EXPECT_NE(environment.find("\n" + variable + "\n"), std::string::npos) << variable << environment;
   }
-  // The fleet's second UAV has the last of its domains, and the launcher said which they are.
+  // The second UAV has the last of the fleet's domains. The launcher has printed the range of domains.
   std::smatch domain;
   ASSERT_TRUE(std::regex_search(environment, domain, std::regex("\nSKEIN_DOMAIN=([0-9]+)\n"))) << environment;
   EXPECT_NE(err_.str().find(".." + domain[1].str() + ","), std::string::npos) << err_.str();
-  EXPECT_NE(environment.find("\nROS_DOMAIN_ID=" + domain[1].str() + "\n"), std::string::npos) << "a ROS node's";
+  EXPECT_NE(environment.find("\nROS_DOMAIN_ID=" + domain[1].str() + "\n"), std::string::npos) << "for ROS";
   const Json warnings = result()["warnings"];
   for (const Json& warning : warnings) {
     EXPECT_EQ(warning.get<std::string>().find("uav_agent-beta"), std::string::npos) << warning;
@@ -356,7 +356,7 @@ TEST_F(RunCommand, ReportsThatComeThroughThePipeNeedNoFiles) {
   EXPECT_EQ(result()["score"], 2.5);
   EXPECT_EQ(result()["points_detected"], 3);
   EXPECT_EQ(result()["radio"]["sent"], 11);
-  EXPECT_TRUE(result()["uavs"][1]["planner_cpu_s"].is_null()) << "what a command says of itself is not a report";
+  EXPECT_TRUE(result()["uavs"][1]["planner_cpu_s"].is_null()) << "a command's message about itself is not a report";
   const std::string words = "files are missing or cut short: cannot write x/captures.csv: No space left on device";
   EXPECT_NE(result()["warnings"].dump().find(words), std::string::npos) << result()["warnings"];
   EXPECT_NE(out_.str().find("warning: files are missing"), std::string::npos) << out_.str();

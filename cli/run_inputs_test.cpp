@@ -11,7 +11,7 @@
 namespace skein::cli {
 namespace {
 
-TEST(RunInputs, ARunThatWouldDeleteThemDoesNotStart) {
+TEST(RunInputs, ARunThatWouldDeleteItsInputsDoesNotStart) {
   const FakePrograms programs;
   const std::filesystem::path dir = programs.dir() / "out";
   std::filesystem::create_directory(dir);

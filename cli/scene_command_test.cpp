@@ -39,7 +39,7 @@ TEST_F(SceneCommand, HandsItsOptionsToTheServer) {
   EXPECT_EQ(read_text(told), "--scenario towers --scene-picture .\n");
 }
 
-TEST_F(SceneCommand, ItsExitCodeIsOurs) {
+TEST_F(SceneCommand, TheCommandReturnsTheServersExitCode) {
   write_script(programs_.dir() / "sim_server", "exit 2");
   EXPECT_EQ(export_scene(of("towers")), kExitBadInput);
   write_script(programs_.dir() / "sim_server", "kill -9 $$");

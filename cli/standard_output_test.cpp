@@ -27,18 +27,18 @@ bool is_lost(int output, const std::string& text) {
   return WEXITSTATUS(status) != 0;
 }
 
-TEST(StandardOutput, OnAFullDiskIsLost) {
+TEST(StandardOutput, IsReportedAsLostIfTheDiskIsFull) {
   const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC), null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   for (const std::size_t length : {1, 100, 100'000}) {
     EXPECT_TRUE(is_lost(full, std::string(length, 'x'))) << length;
     EXPECT_FALSE(is_lost(null, std::string(length, 'x'))) << length;
   }
-  EXPECT_FALSE(is_lost(full, "")) << "nothing was printed";
+  EXPECT_FALSE(is_lost(full, "")) << "without output, nothing can be lost";
   ::close(full);
   ::close(null);
 }
 
-TEST(StandardOutput, WithoutAReaderIsNotLost) {
+TEST(StandardOutput, IsNotReportedAsLostIfTheReaderOfThePipeHasGone) {
   int pipe[2];
   ASSERT_EQ(::pipe(pipe), 0);
   ::close(pipe[0]);

@@ -13,7 +13,7 @@
 namespace skein::cli {
 namespace {
 
-TEST_F(StudyCommand, FliesAllAndReports) {
+TEST_F(StudyCommand, FliesAllFlightsAndWritesTheReports) {
   EXPECT_EQ(run(), kExitDone) << err_.str();
   EXPECT_EQ(flown(), "hover 1\npatrol 1\nhover 2\npatrol 2\nhover 3\npatrol 3\n");
   EXPECT_NE(file("totals.csv").find("\n1,patrol,max,1010,1020,1030,1030,1020,1010\n"), std::string::npos)
@@ -54,7 +54,7 @@ TEST_F(StudyCommand, AResultWithAWrongChecksumIsNamedAndFlownAgain) {
   std::string text = results::result_text(read_json(result));
   write_text(result, text);
   EXPECT_EQ(run(), kExitDone);
-  EXPECT_EQ(flown(), "") << "its checksum is right";
+  EXPECT_EQ(flown(), "") << "the checksum of the new result is right";
   text.replace(text.find("\"score\": 20"), 11, "\"score\": 99");
   write_text(result, text);
   EXPECT_EQ(run(), kExitDone);
@@ -69,7 +69,7 @@ std::string agent_script(const std::string& planners, const std::string& build) 
          build + "\n";
 }
 
-TEST_F(StudyCommand, AnAgentOfOnesOwnBuiltAnewFliesItsOwnPlannersAgainAndNoOthers) {
+TEST_F(StudyCommand, OnlyThePlannersOfARebuiltAgentProgramFlyAgain) {
   const auto mine = programs_.dir() / "mine";
   write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "stock"));
   write_script(mine, agent_script("\"hover\", \"orbit\", \"patrol\"", "first"));
@@ -98,7 +98,7 @@ TEST_F(StudyCommand, AnAgentOfOnesOwnBuiltAnewFliesItsOwnPlannersAgainAndNoOther
   EXPECT_EQ(flown(), "hover 0\n");
 }
 
-TEST_F(StudyCommand, PlannersOfOneNameFromTwoAgentsMeet) {
+TEST_F(StudyCommand, TwoAgentProgramsMayFlyPlannersOfTheSameName) {
   for (const char* team : {"a", "b"}) {
     std::filesystem::create_directory(programs_.dir() / team);
     write_script(programs_.dir() / team / "agent", agent_script("\"orbit\"", team));
@@ -119,19 +119,19 @@ TEST_F(StudyCommand, PlannersOfOneNameFromTwoAgentsMeet) {
   write_script(programs_.dir() / "b/agent", agent_script("\"orbit\"", "anew"));
   options_.force = true;
   ASSERT_EQ(run(), kExitDone) << err_.str();
-  EXPECT_EQ(flown(), b + " 0\nalpha=" + a + ",beta=" + b + " 0\n") << "those that it flies";
+  EXPECT_EQ(flown(), b + " 0\nalpha=" + a + ",beta=" + b + " 0\n") << "the rebuilt agent program flies these";
 
   options_.planner_lists.push_back("orbit@" + dir + "/b/../a/agent");
   EXPECT_NE(refusal().find("'" + a + "' is named twice"), std::string::npos) << refusal();
 }
 
-TEST_F(StudyCommand, TheCommandThatRepeatsItIsTheOneOfThisSkeinWithItsAgent) {
+TEST_F(StudyCommand, TheRepeatCommandCallsThisSkeinAndNamesItsAgentProgram) {
   const std::string agent = programs_.dir() / "mine";
   write_script(agent, agent_script("\"hover\", \"patrol\"", "mine"));
   ::setenv("SKEIN_AGENT", agent.c_str(), 1);
   const int installed = run();
   const std::string page = file("report.html");
-  // The same programs where a build of the tree has them, below its script.
+  // The same programs, at the place where a build of the source tree has them, and the tree's script.
   const std::filesystem::path tree = programs_.dir() / "tree", bin = tree / "build/release/bin";
   std::filesystem::create_directories(bin);
   for (const char* name : {"skein", "sim_server", "comm_router", "station", "uav_agent"}) {
@@ -152,7 +152,7 @@ TEST_F(StudyCommand, TheCommandThatRepeatsItIsTheOneOfThisSkeinWithItsAgent) {
   EXPECT_NE(file("report.html").find(with_agent), std::string::npos);
 }
 
-TEST_F(StudyCommand, AnAgentThatAPlannerNamesFliesItEvenWhatIsBuiltIn) {
+TEST_F(StudyCommand, AnAgentProgramThatAPlannerNamesFliesItAlsoIfItIsBuiltIn) {
   const auto mine = programs_.dir() / "mine";
   write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "stock"));
   write_script(mine, agent_script("\"hover\"", "mine"));
@@ -167,10 +167,10 @@ TEST_F(StudyCommand, AnAgentThatAPlannerNamesFliesItEvenWhatIsBuiltIn) {
   write_script(mine, agent_script("\"hover\"", "anew"));
   options_.force = true;
   ASSERT_EQ(run(), kExitDone) << err_.str();
-  EXPECT_EQ(flown(), named + " 0\n") << "the others fly in uav_agent, or in what is not mine";
+  EXPECT_EQ(flown(), named + " 0\n") << "only this planner flies in the program that was changed";
 }
 
-TEST_F(StudyCommand, AChangedParameterFileMakesANewFlight) {
+TEST_F(StudyCommand, AChangedParameterFileIsRefused) {
   const auto parameters = programs_.dir() / "mine.yaml";
   write_text(parameters, "a: 1\n");
   options_.planner_lists = {"hover:" + parameters.string()};
@@ -186,7 +186,8 @@ TEST_F(StudyCommand, AFlightThatFailsIsNotedAndTheOthersGoOn) {
   EXPECT_EQ(run(), kExitProcessFailed);
   EXPECT_EQ(std::ranges::count(flown(), '\n'), 6);
   EXPECT_NE(file("report.html").find("uav_agent-alpha failed: exit code 9"), std::string::npos);
-  EXPECT_NE(file("flights.csv").find(",hover,2,completed,20,"), std::string::npos) << "it went to its end";
+  EXPECT_NE(file("flights.csv").find(",hover,2,completed,20,"), std::string::npos)
+      << "an agent failed, but the flight went to its end";
   EXPECT_NE(file("flights.csv").find(",patrol,3,,"), std::string::npos) << file("flights.csv");
   EXPECT_NE(file("totals.csv").find("\n1,patrol,max,1010,1020,,1020,1015,1010\n"), std::string::npos)
       << file("totals.csv");
@@ -206,7 +207,7 @@ TEST_F(StudyCommand, CtrlCStopsAndTheSameCommandGoesOn) {
   EXPECT_EQ(flown(), "hover 2\npatrol 2\nhover 3\npatrol 3\n");
 }
 
-TEST_F(StudyCommand, SeveralFlightsAtOnceGiveTheSame) {
+TEST_F(StudyCommand, SeveralFlightsAtOnceGiveTheSameResults) {
   ASSERT_EQ(run(), kExitDone);
   const std::string flights = file("flights.csv"), totals = file("totals.csv");
   options_.out = programs_.dir() / "at_once";
@@ -216,7 +217,7 @@ TEST_F(StudyCommand, SeveralFlightsAtOnceGiveTheSame) {
   EXPECT_EQ(file("totals.csv"), totals);
 }
 
-TEST_F(StudyCommand, ACompareHasNoTotals) {
+TEST_F(StudyCommand, AComparisonHasNoTotals) {
   options_.contest = false;
   options_.seeds = "0-1";
   options_.duration_s = 60.0;
@@ -268,7 +269,7 @@ TEST_F(StudyCommand, MistakesAreReportedBeforeAnythingFlies) {
   refused("planner patrol: no such planner");
 }
 
-TEST_F(StudyCommand, TheJobThatMergesSaysSoIfItCannot) {
+TEST_F(StudyCommand, TheJobThatMergesReportsItsFailure) {
   write_text(*options_.out, "a file");
   ::setenv(kMergeVariable, "1", 1);
   EXPECT_NE(refusal().find("is not a folder"), std::string::npos) << out_.str();

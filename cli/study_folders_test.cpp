@@ -30,7 +30,7 @@ TEST_F(StudyCommand, OtherSettingsInTheSameFolderAreRefusedUnlessForced) {
   EXPECT_EQ(flown(), "");
   options_.force = true;
   EXPECT_EQ(run(), kExitDone);
-  EXPECT_EQ(flown(), "kios 1\nkios 2\nkios 3\n") << "the others fit";
+  EXPECT_EQ(flown(), "kios 1\nkios 2\nkios 3\n") << "the other results fit";
   options_.duration_s = 30.0;
   options_.force = false;
   EXPECT_NE(refusal().find("duration_s: then null, now 30"), std::string::npos) << refusal();
@@ -42,8 +42,8 @@ TEST_F(StudyCommand, OtherSettingsInTheSameFolderAreRefusedUnlessForced) {
   EXPECT_EQ(std::ranges::count(flown(), '\n'), 9) << "flights of another build do not count";
 }
 
-// With other programs no flight fits, so a repeat that was only to add a planner must not begin.
-TEST_F(StudyCommand, ARefusedRepeatWithAPlannerMoreLeavesTheFolderAsItIs) {
+// Results of other programs do not fit, so a command that was only to add a planner must not fly everything again.
+TEST_F(StudyCommand, ARefusedCommandWithAnotherPlannerLeavesTheFolderAsItIs) {
   ASSERT_EQ(run(), kExitDone) << err_.str();
   const auto before = texts_below(*options_.out);
   options_.planner_lists = {"hover,patrol,kios"};
@@ -63,7 +63,7 @@ TEST_F(StudyCommand, ARefusedRepeatWithAPlannerMoreLeavesTheFolderAsItIs) {
 }
 
 // A user who asks for the status has not asked for flights.
-TEST_F(StudyCommand, TheStatusAfterAnotherBuildSaysWhatFitsAndWhatContinuingDoes) {
+TEST_F(StudyCommand, TheStatusAfterAnotherBuildTellsWhichResultsFitAndWhatContinuingDoes) {
   ASSERT_EQ(run(), kExitDone) << err_.str();
   const std::string out = *options_.out;
   for (const bool forced : {false, true}) {
@@ -92,7 +92,7 @@ TEST_F(StudyCommand, TheStatusAfterAnotherBuildSaysWhatFitsAndWhatContinuingDoes
   }
 }
 
-TEST_F(StudyCommand, AFolderOfARunIsNotTaken) {
+TEST_F(StudyCommand, AFolderOfARunIsRefused) {
   fs::create_directories(*options_.out);
   write_text(*options_.out / "result.json", "{}");
   EXPECT_NE(refusal().find("holds a result already"), std::string::npos);
@@ -117,13 +117,13 @@ TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
   write_text(*options_.out / "scene.json", "mine, too");
   options_.force = true;
   EXPECT_EQ(run(), kExitDone);
-  EXPECT_EQ(file("scene.json"), "mine, too") << "no file of a study's";
+  EXPECT_EQ(file("scene.json"), "mine, too") << "a study has no file of this name";
   options_.force = false;
-  EXPECT_EQ(run(), kExitDone) << "now it is of a study";
+  EXPECT_EQ(run(), kExitDone) << "now the folder is that of a study";
 }
 
 // Slurm opens the log of a job before the job begins; a launcher that was killed has left its reserved space.
-TEST_F(StudyCommand, AnEmptyFolderAndOneWithTheLogOfItsJobAreTaken) {
+TEST_F(StudyCommand, AnEmptyFolderAndOneWithTheLogOfItsJobAreAccepted) {
   const std::vector<std::string> logs = {"slurm-17.out", "slurm-17_3.out", "job.log", "job.err"};
   fs::create_directories(*options_.out);
   EXPECT_EQ(run(), kExitDone) << err_.str();

@@ -11,7 +11,7 @@
 namespace skein::cli {
 namespace {
 
-/// A GoogleTest report with one case each.
+/// A GoogleTest report with one passed, one failed, one skipped and one disabled case.
 constexpr const char* kReport = R"({"testsuites": [{"name": "S", "testsuite": [
   {"name": "a", "status": "RUN", "result": "COMPLETED"},
   {"name": "b", "status": "RUN", "result": "COMPLETED", "failures": [{"failure": "x", "type": ""}]},
@@ -24,7 +24,7 @@ class TestCommand : public ::testing::Test {
     write_text(scratch_.path() / "ctest.xml", "<testsuite name=\"x\">" + entries + "</testsuite>");
     return summary_line(count_tests(scratch_.path() / "ctest.xml", scratch_.path()));
   }
-  /// As ctest writes it.
+  /// An entry of ctest's JUnit file.
   static std::string entry(const std::string& name, const std::string& status, const std::string& inside = "") {
     return "<testcase name=\"" + name + "\" classname=\"" + name + "\" time=\"0.1\" status=\"" + status + "\">\n\t\t" +
            inside + "</testcase>\n";
@@ -43,12 +43,12 @@ TEST_F(TestCommand, AProgramThatWasNotBuiltIsAFailure) {
   EXPECT_EQ(counted(entry("a", "notrun", R"(<skipped message="Unable to find executable"/>)")), "0 passed, 1 failed");
 }
 
-TEST_F(TestCommand, CasesOfAGoogleTestProgramCountSingly) {
+TEST_F(TestCommand, EachCaseOfAGoogleTestProgramCounts) {
   write_text(scratch_.path() / "g.json", kReport);
   EXPECT_EQ(counted(entry("g", "fail") + entry("b", "run")), "2 passed, 1 failed, 1 skipped");
 }
 
-TEST_F(TestCommand, AProgramThatEndsBadlyAfterGoodCasesIsAFailure) {
+TEST_F(TestCommand, AProgramThatFailsAfterPassedCasesIsAFailure) {
   write_text(scratch_.path() / "g.json", R"({"testsuites": [{"testsuite": [{"name": "a", "result": "COMPLETED"}]}]})");
   EXPECT_EQ(counted(entry("g", "fail")), "1 passed, 1 failed");
 }
@@ -67,7 +67,7 @@ TEST_F(TestCommand, TheSlowestPartsComeFirst) {
   EXPECT_EQ(parts_table(junit, 20), "");
 }
 
-TEST_F(TestCommand, ChoosesByFolder) {
+TEST_F(TestCommand, ChoosesTestsByFolder) {
   const std::filesystem::path list = scratch_.path() / "folders.txt";
   write_text(list, "core\nsim_server/flight\nsim_server\ntests/fleet\ntests\n");
   EXPECT_EQ(labels_of_folders({"core"}, list), "^(core)(/|$)");

@@ -16,7 +16,7 @@ Options read(const std::vector<std::string>& arguments) {
   return parse_command_line(arguments).get<Options>();
 }
 
-TEST(ViewOptions, ReplayReadsAll) {
+TEST(ViewOptions, ReplayReadsAllItsOptions) {
   const auto served = read<ReplayOptions>({"replay", "a", "b", "--view", "8080"});
   EXPECT_TRUE(served.run == "a" && served.other == "b" && served.at == "8080");
   EXPECT_FALSE(served.exported || served.force || served.maps);
@@ -38,7 +38,7 @@ TEST(ViewOptions, ReplayReadsAll) {
   }
 }
 
-TEST(ViewOptions, MapsAreKeptWhereTheUserAsks) {
+TEST(ViewOptions, MapsAreKeptOnlyIfTheUserAsksForThem) {
   EXPECT_EQ(read<RunOptions>({"run"}).keep_maps_s, std::nullopt);
   EXPECT_EQ(read<RunOptions>({"run", "--keep-maps", "cranes"}).keep_maps_s, 10.0);
   EXPECT_EQ(read<RunOptions>({"run", "--keep-maps", "cranes"}).scenario, "cranes");

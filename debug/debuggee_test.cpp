@@ -18,9 +18,10 @@ std::string program_of(const std::string& name) {
 
 std::vector<Debuggee> parse(const std::vector<std::string>& values) { return parse_debug(values, program_of); }
 
-TEST(Debuggee, EachWayIsRead) {
+TEST(Debuggee, EachWayToDebugIsRead) {
   EXPECT_EQ(parse({"jurong"})[0].how, How::by_hand);
-  EXPECT_EQ(parse({"station"})[0].how, How::wait) << "what it tells the launcher needs a pipe";
+  EXPECT_EQ(parse({"station"})[0].how, How::wait)
+      << "the station needs its pipe to the launcher, so the user cannot start it by hand";
   EXPECT_EQ(parse({"jurong=wait"})[0].how, How::wait);
   const Debuggee command = parse({"jurong=/bin/sh -c 'a b' \"c d\""})[0];
   EXPECT_EQ(command.how, How::command);
@@ -45,7 +46,7 @@ TEST(Debuggee, AnInvalidOptionIsRefused) {
   EXPECT_THROW(parse({"jurong=wait", "jurong=/bin/sh"}), InputError);
 }
 
-TEST(Debuggee, ItsToolStandsBeforeTheCommandLine) {
+TEST(Debuggee, ItsToolPrecedesTheCommandLine) {
   ProgramSpec program{"uav_agent-jurong", {"/bin/agent", "--uav", "jurong"}, {}, "a.log"};
   put_under_tool(program, parse({"jurong=/bin/sh -e"})[0]);
   EXPECT_EQ(program.argv, (std::vector<std::string>{"/bin/sh", "-e", "/bin/agent", "--uav", "jurong"}));

@@ -28,7 +28,7 @@ Greeting drawn_greeting(Random& random) {
   return greeting;
 }
 
-TEST(Greetings, ComeBackAsTheyWereInDatagramsOfAnySize) {
+TEST(Greetings, ReadBackUnchangedFromDatagramsOfAnySize) {
   Random random(1);
   for (int i = 0; i < 500; ++i) {
     const Greeting sent = drawn_greeting(random);
@@ -45,7 +45,7 @@ TEST(Greetings, ComeBackAsTheyWereInDatagramsOfAnySize) {
   }
 }
 
-TEST(Greetings, NoDataThatArriveOnThePortDoHarm) {
+TEST(Greetings, ArbitraryDataOnThePortDoNoHarm) {
   Random random(2);
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::uint8_t> bytes = bytes_of(drawn_greeting(random), random() % 500);

@@ -16,7 +16,7 @@ using Random = std::mt19937_64;
 constexpr double kNow = 1.7e9;
 constexpr std::size_t kLarge = 1472;
 
-/// How one peer and the way to it are in one domain.
+/// The state of one peer, and of the network between it and this host, in one domain.
 struct Way {
   bool small = true, large = true, dds = true, hears_us = true;
   int base = 1;
@@ -25,7 +25,7 @@ struct Way {
   std::vector<std::string> vendors = {"cyclonedds"};
 };
 
-/// A meeting with `ways.size()` other hosts, whose names have an address each.
+/// A meeting with `ways.size()` other hosts. The name of each resolves to an address.
 Meetings meeting_of(const std::vector<Way>& ways) {
   Meetings all{.id = 1, .name = "we"};
   Meeting world{.domain = "world", .number = 1, .base = 1, .address = "10.0.0.1", .largest = kLarge};
@@ -59,7 +59,7 @@ Meetings meeting_of(const std::vector<Way>& ways) {
 struct Break {
   std::function<void(Way&)> of;
   Verdict verdict;
-  std::string hint;  ///< has these words in it
+  std::string hint;  ///< words that the hint contains
 };
 
 const std::vector<Break>& breaks() {
@@ -76,12 +76,12 @@ const std::vector<Break>& breaks() {
   return kAll;
 }
 
-TEST(Meetings, EachTroubleIsToldOfItsPeerAndOfNoOther) {
+TEST(Meetings, EachTroubleIsReportedForItsPeerAndForNoOther) {
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     std::vector<Way> ways(1 + random() % 6);
     const Meetings whole = meeting_of(ways);
-    ASSERT_EQ(judge_meeting(whole, whole.domains[0]).size(), ways.size()) << "this host is left out";
+    ASSERT_EQ(judge_meeting(whole, whole.domains[0]).size(), ways.size()) << "the list must not contain this host";
     for (const PeerState& state : judge_meeting(whole, whole.domains[0])) {
       EXPECT_EQ(state.verdict, Verdict::ok);
       EXPECT_EQ(state.hint, "");
@@ -101,7 +101,7 @@ TEST(Meetings, EachTroubleIsToldOfItsPeerAndOfNoOther) {
   }
 }
 
-TEST(Meetings, SilenceHasItsReasons) {
+TEST(Meetings, TheHintNamesTheReasonWhyAPeerIsSilent) {
   Way silent;
   silent.small = silent.large = silent.dds = false;
   Meetings all = meeting_of({silent});
@@ -119,7 +119,7 @@ TEST(Meetings, SilenceHasItsReasons) {
   EXPECT_NE(hint().find("no address"), std::string::npos);
 }
 
-TEST(Meetings, APeerThatIsHeardWithoutBeingNamedIsListedAndFailsNothing) {
+TEST(Meetings, APeerThatTheUserDidNotNameIsListedAndFailsNothing) {
   Way way;
   way.large = false;
   Meetings all = meeting_of({way});
@@ -142,10 +142,10 @@ TEST(Meetings, AGreetingNamesTheDoctorsThatItsSenderHeard) {
   EXPECT_EQ(greeting.heard_dds, (std::vector<std::uint32_t>{3}));
   Meetings ours = all;
   ours.note_datagram(greeting, "10.0.0.1", "10.0.0.1", 300, kNow);
-  EXPECT_EQ(ours.domains[0].heard.size(), 2u) << "our own greetings count for nothing";
+  EXPECT_EQ(ours.domains[0].heard.size(), 2u) << "a doctor ignores its own greetings";
 }
 
-TEST(Meetings, PeopleAndProgramsReadTheSame) {
+TEST(Meetings, TheTextAndTheJsonHaveTheSameFindings) {
   Random random(5);
   for (int i = 0; i < 100; ++i) {
     std::vector<Way> ways(1 + random() % 6);

@@ -26,8 +26,8 @@ struct Network {
   DomainNetworkFacts domain;
 };
 
-/// Random facts of a network without faults: the host reaches all peers of the domain. It is itself among the peers now
-/// and then.
+/// Random facts of a network without faults: the host reaches all peers of the domain. Sometimes it is itself among the
+/// peers.
 Network drawn_network(Random& random) {
   Network drawn;
   drawn.interfaces = {{.name = "lo", .address = "127.0.0.1", .mtu = 65536, .up = true}};
@@ -46,7 +46,7 @@ Network drawn_network(Random& random) {
   return drawn;
 }
 
-TEST(NetworkJudges, EachPeerThatIsNotReachedIsNamedAndNoOther) {
+TEST(NetworkJudges, OnlyPeersThatTheHostDoesNotReachAreNamed) {
   Random random(1);
   const std::vector<std::function<void(PeerFacts&)>> breaks = {
       [](PeerFacts& peer) { peer.address = peer.source = std::nullopt; },
@@ -98,7 +98,7 @@ TEST(NetworkJudges, TrafficWithinTheHostNeedsTheLoopbackInterface) {
   EXPECT_EQ(exit_code(judge_interfaces({}, true)), kExitCheckFailed);
 }
 
-TEST(NetworkJudges, TheFirstFreeBlockIsTakenAndAHeldOneRefused) {
+TEST(NetworkJudges, TheFirstFreeBlockIsChosenAndAHeldOneIsRefused) {
   Random random(3);
   for (int i = 0; i < 500; ++i) {
     PortFacts ports;
@@ -118,7 +118,7 @@ TEST(NetworkJudges, TheFirstFreeBlockIsTakenAndAHeldOneRefused) {
   }
 }
 
-TEST(NetworkJudges, StrangersPortsAndThoseOfClientsAreWarnedOf) {
+TEST(NetworkJudges, PortsOfOtherProgramsAndThoseForClientsGiveWarnings) {
   Random random(4);
   for (int i = 0; i < 500; ++i) {
     const BlockWish wish{.base = 1 + static_cast<int>(random() % 90), .size = 7};
@@ -128,7 +128,7 @@ TEST(NetworkJudges, StrangersPortsAndThoseOfClientsAreWarnedOf) {
     const DomainPorts range = ports_of(domain, wish.participants);
     ports.taken = {range.first + static_cast<int>(random()) % 2, range.last};
     EXPECT_EQ(judge_ports(ports, wish)[1].verdict, Verdict::warn);
-    ports.held[domain] = std::nullopt;  // a fleet's own ones
+    ports.held[domain] = std::nullopt;  // a fleet holds the domain, so the ports are its own
     EXPECT_EQ(judge_ports(ports, wish)[1].verdict, Verdict::ok);
     ports = {};
     ports.taken = {ports_of(*wish.base, 1).first - 1, ports_of(*wish.base + 7, 1).first};
@@ -139,7 +139,7 @@ TEST(NetworkJudges, StrangersPortsAndThoseOfClientsAreWarnedOf) {
   EXPECT_EQ(judge_ports({}, {.base = 96, .size = 7})[2].verdict, Verdict::warn);
 }
 
-TEST(NetworkFacts, PortsAndLocksOfThisHostAreSeen) {
+TEST(NetworkFacts, PortsAndLocksOfThisHostAreRead) {
   const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in own{};
   own.sin_family = AF_INET;

@@ -36,7 +36,7 @@ class MadeUpMemory : public testing::Test {
   fs::path root_;
 };
 
-TEST_F(MadeUpMemory, SegmentsThatNoProcessHasAreCounted) {
+TEST_F(MadeUpMemory, SegmentsThatNoProcessUsesAreCounted) {
   std::mt19937_64 random(1);
   std::size_t unused = 0, bytes = 0;
   for (int i = 0; i < 60; ++i) {
@@ -56,10 +56,11 @@ TEST_F(MadeUpMemory, SegmentsThatNoProcessHasAreCounted) {
   EXPECT_EQ(facts.unused_bytes, bytes);
   EXPECT_EQ(judge_shared_memory(facts).verdict, Verdict::warn);
   fs::remove_all(root_ / "dev/shm");
-  EXPECT_EQ(judge_shared_memory(read_shared_memory(root_)).verdict, Verdict::ok) << "a fleet does without";
+  EXPECT_EQ(judge_shared_memory(read_shared_memory(root_)).verdict, Verdict::ok)
+      << "a fleet works without shared memory";
 }
 
-TEST(SoftwareJudges, VariablesOfDdsAreNamed) {
+TEST(SoftwareJudges, VariablesThatConfigureDdsAreNamed) {
   ASSERT_EQ(::setenv("CYCLONEDDS_URI", "file:///nowhere.xml", 1), 0);
   VariableFacts facts = read_variables();
   EXPECT_NE(judge_variables(facts)[0].found.find("CYCLONEDDS_URI"), std::string::npos);
@@ -70,18 +71,18 @@ TEST(SoftwareJudges, VariablesOfDdsAreNamed) {
   EXPECT_EQ(judge_variables(facts)[1].verdict, Verdict::warn);
 }
 
-TEST(SoftwareJudges, DockerIsNeverInTheWayOfAFleet) {
+TEST(SoftwareJudges, DockerTroublesAreOnlyWarnings) {
   EXPECT_EQ(judge_docker({}).verdict, Verdict::ok);
   DockerFacts docker{.client = true, .host = "tcp://there:1", .trouble = "no answer"};
   EXPECT_EQ(judge_docker(docker).verdict, Verdict::warn);
   EXPECT_NE(judge_docker(docker).found.find(docker.host), std::string::npos);
   docker.engine = "28.0";
-  EXPECT_EQ(judge_docker(docker).verdict, Verdict::warn) << "no compose";
+  EXPECT_EQ(judge_docker(docker).verdict, Verdict::warn) << "docker-compose is missing";
   docker.compose = "docker compose 2.30";
   EXPECT_EQ(judge_docker(docker).verdict, Verdict::ok);
 }
 
-TEST(SoftwareFacts, DockerIsAskedByItsClient) {
+TEST(SoftwareFacts, TheDoctorAsksDockerWithItsClient) {
   std::string pattern = fs::temp_directory_path() / "skein-doctor-docker-XXXXXX";
   const fs::path folder = ::mkdtemp(pattern.data());
   const std::string path = std::getenv("PATH");

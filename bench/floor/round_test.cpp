@@ -16,7 +16,7 @@ constexpr int kBase = 10;
 
 bool is(const Flow& flow, const topics::WireTopic& topic) { return flow.topic.name == topic.name; }
 
-TEST(Round, EverybodyWaitsForSomethingAndSaysSomething) {
+TEST(Round, EachProgramWaitsForMessagesAndWritesMessages) {
   for (const std::size_t uavs : {1, 5, 20}) {
     const std::vector<Flow> flows = round_flows(uavs, kBase);
     ASSERT_EQ(seats(uavs).size(), uavs + 3);
@@ -44,7 +44,7 @@ TEST(Round, NoTopicIsWrittenTwiceInADomain) {
   for (const Flow& flow : round_flows(5, kBase)) EXPECT_TRUE(seen.emplace(flow.domain, flow.topic.name).second);
 }
 
-TEST(Round, MessagesAreWhatTheirTopicsCarry) {
+TEST(Round, EachMessageHasTheTypeOfItsTopic) {
   for (const Flow& flow : round_flows(5, kBase)) {
     EXPECT_TRUE(flow.topic.qos.reliable) << flow.topic.name;
     EXPECT_FALSE(flow.topic.qos.latched) << flow.topic.name;

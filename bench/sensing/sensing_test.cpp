@@ -1,4 +1,4 @@
-// Pictures and tables of docs/sensing.md: well formed, not empty, and the same at each call.
+// The pictures and tables of docs/sensing.md are well formed and not empty, and each call draws the same ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using agent::Space;
 
-/// A line with as many cells as the one above it.
+/// Expects that each line of a table has as many cells as the line above it.
 void expect_table(const std::string& markdown) {
   std::istringstream lines(markdown);
   std::string line;
@@ -104,7 +104,7 @@ TEST_F(SensingPage, TablesAreWellFormed) {
   }
 }
 
-TEST(SensingStops, ComeLaterTheFasterItFlies) {
+TEST(SensingStops, AreLongerTheFasterTheUavFlies) {
   const std::vector<Stop> flown = stops(1);
   ASSERT_EQ(flown.size(), 12U) << "up to 6 m/s";
   for (std::size_t i = 1; i < flown.size(); ++i) EXPECT_GT(flown[i].way_m, flown[i - 1].way_m);
@@ -113,7 +113,7 @@ TEST(SensingStops, ComeLaterTheFasterItFlies) {
   EXPECT_LT(flown.back().way_m, 3.0 * hardest);
 }
 
-TEST(SensingStops, ASpeedIsBetweenThoseThatWereFlown) {
+TEST(SensingStops, TheSpeedForAStoppingDistanceIsInterpolated) {
   const std::vector<Stop> flown = {{1.0, 0.5}, {2.0, 2.5}};
   EXPECT_EQ(speed_within(flown, 0.0), 0.0);
   EXPECT_EQ(speed_within(flown, 0.25), 0.5);
@@ -131,7 +131,7 @@ TEST(SensingSlice, CutsATriangleWhereItIs) {
   EXPECT_LT((lines[0].first - Vector2d(1.0, 1.0)).norm() + (lines[0].second - Vector2d(2.0, 1.0)).norm(), 1e-6);
 }
 
-TEST(SensingTables, AreExchangedInTheirPlaces) {
+TEST(SensingTables, ReplaceTheFormerTablesOfThePage) {
   const std::string page = "a\n[//]: # (table: x)\nold\n[//]: # (end of table)\nb\n";
   const std::string fresh = "a\n[//]: # (table: x)\n\nnew\n\n[//]: # (end of table)\nb\n";
   EXPECT_EQ(with_table(page, {"x", "new\n"}), fresh);

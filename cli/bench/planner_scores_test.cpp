@@ -60,10 +60,10 @@ TEST(PlannerScores, OnlyRegularFilesAreRead) {
   }
 }
 
-TEST(PlannerScores, KindsOfScenesAreSummedOverWhatBothHave) {
+TEST(PlannerScores, TheSumsOfAKindOfSceneCountOnlyRowsOfBothTables) {
   std::ostringstream out;
   print_planner_scores(out, kBefore, kNow);
-  std::map<std::string, std::vector<std::string>> lines;  // by the first word
+  std::map<std::string, std::vector<std::string>> lines;  // keyed by the first word of the line
   std::istringstream in(out.str());
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);

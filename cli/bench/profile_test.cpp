@@ -10,7 +10,7 @@
 namespace skein::cli {
 namespace {
 
-/// A flight of 1,000 exchanges in one process whose stages cost so much, in seconds.
+/// The result of a flight of 1,000 exchanges in one process. The parameters are the costs of its stages in seconds.
 Json result(double physics_s, double links_s, double planners_s, double exchange_s) {
   const double cpu_s = physics_s + links_s + planners_s + exchange_s;
   return {{"sim_time_s", 50.0},
@@ -36,7 +36,7 @@ TEST(BenchProfile, TellsWhatAnExchangeCosts) {
   EXPECT_DOUBLE_EQ(entry["counts"]["radio"], 3.0);
 }
 
-/// The same with parts of the UAVs' work.
+/// Like result(), with the times that the planners of two UAVs report for the parts of their work.
 Json result_with_parts(const std::vector<std::pair<std::string, double>>& of_first, double of_second_s) {
   Json flown = result(1, 2, 8, 3);
   Json parts = Json::array();
@@ -54,16 +54,17 @@ TEST(BenchProfile, SumsThePartsOverTheFleet) {
   double sum_ms = 0.0;
   for (const Json& part : entry["parts"]) sum_ms += part["ms"].get<double>();
   EXPECT_LE(sum_ms, entry["stages"]["agents"]["ms"]);
-  EXPECT_TRUE(profile_entry("kios", 10, {result(1, 2, 4, 3)})["parts"].empty()) << "an agent that times no parts";
+  EXPECT_TRUE(profile_entry("kios", 10, {result(1, 2, 4, 3)})["parts"].empty())
+      << "the agent reports no times of parts";
 }
 
-TEST(BenchProfile, PrintsThePartsOfAPlannerAndWhatNoneOfThemContains) {
+TEST(BenchProfile, PrintsThePartsOfAPlannerAndTheTimeOutsideThem) {
   const std::vector<Json> entries = {
       profile_entry("kios", 2, {result_with_parts({{"planner/tours", 2.0}}, 1.0)}),
       profile_entry("kios", 4, {result_with_parts({{"planner/tours", 4.0}, {"maps/telling", 0.4}}, 2.0)})};
   const Json growth = profile_growth(entries);
   EXPECT_NEAR(growth["parts"]["planner/tours"]["exponent"], 1.0, 1e-9);
-  EXPECT_FALSE(growth["parts"].contains("maps/telling")) << "known of one size only";
+  EXPECT_FALSE(growth["parts"].contains("maps/telling")) << "only one fleet size has a time for this part";
   std::ostringstream text;
   print_profile(text, {{"profile", entries}, {"growth", {{"kios", growth}}}});
   for (const char* line : {"\n  maps/telling                      0.0    100.0        -\n",
@@ -87,7 +88,7 @@ TEST(BenchProfile, FindsTheExponentOfDrawnLaws) {
   RandomStream random(1, "growth", 0);
   for (int i = 0; i < 100; ++i) {
     const double exponent = random.uniform(0.0, 3.0), factor = random.uniform(0.001, 10.0);
-    std::vector<std::pair<double, double>> costs = {{7.0, 0.0}};  // what cost nothing says nothing
+    std::vector<std::pair<double, double>> costs = {{7.0, 0.0}};  // growth_of() ignores a cost of 0
     for (const double uavs : {1.0, 2.0, 5.0, 20.0, 100.0}) costs.emplace_back(uavs, factor * std::pow(uavs, exponent));
     const auto growth = growth_of(costs);
     ASSERT_TRUE(growth);
@@ -96,7 +97,7 @@ TEST(BenchProfile, FindsTheExponentOfDrawnLaws) {
   }
   EXPECT_FALSE(growth_of({}));
   EXPECT_FALSE(growth_of({{5.0, 1.0}}));
-  EXPECT_FALSE(growth_of({{5.0, 1.0}, {5.0, 2.0}})) << "one size";
+  EXPECT_FALSE(growth_of({{5.0, 1.0}, {5.0, 2.0}})) << "one fleet size shows no growth";
   EXPECT_FALSE(growth_of({{5.0, 0.0}, {9.0, 0.0}}));
 }
 
@@ -109,7 +110,7 @@ TEST(BenchProfile, NamesWhatIsTheFirstLimit) {
   EXPECT_NEAR(growth["stages"]["physics"]["exponent"], 1.0, 1e-9);
   EXPECT_NEAR(growth["stages"]["line_of_sight"]["exponent"], 2.0, 1e-9);
   EXPECT_NEAR(growth["stages"]["line_of_sight"]["ms_at_1000"], 1000.0, 1e-6);
-  EXPECT_FALSE(growth["stages"].contains("camera")) << "nothing was taken";
+  EXPECT_FALSE(growth["stages"].contains("camera")) << "no UAV took a picture";
   entries.push_back(profile_entry("patrol", 200, {result(200, 400, 20, 200)}));
   EXPECT_EQ(profile_growth(entries)["first_limit"], "line_of_sight");
   EXPECT_EQ(profile_growth({})["first_limit"], Json());

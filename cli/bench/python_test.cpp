@@ -22,7 +22,7 @@ TEST(PythonPairs, AreComparedOneByOne) {
   const Json entry = language_pairs_entry(
       {{flight_of(0.8, 200.0), flight_of(1.0, 100.0)}, {flight_of(3.0, 50.0), flight_of(4.0, 45.0)}, {Json(), Json()}});
   EXPECT_EQ(entry["pairs"], 3);
-  EXPECT_EQ(entry["speed_cpu"]["values"], Json({0.8, 0.75})) << "more CPU time is less speed";
+  EXPECT_EQ(entry["speed_cpu"]["values"], Json({0.8, 0.75})) << "the speed is lower if the flight needs more CPU time";
   EXPECT_EQ(entry["speed_clock"]["values"], Json({0.5, 0.9}));
   EXPECT_TRUE(language_pairs_entry({{Json(), flight_of(1.0, 1.0)}})["speed_cpu"].is_null()) << "nothing was measured";
 }
@@ -43,8 +43,8 @@ TEST(PythonRows, SayWhetherTheirTargetsAreMet) {
   EXPECT_EQ(met("resets a minute"), Json(false));
   EXPECT_EQ(met("Python's memory"), Json(true));
   EXPECT_EQ(met("beside MBS"), Json(false)) << "the median counts";
-  EXPECT_EQ(met("in towers"), Json()) << "nothing is asked";
-  EXPECT_EQ(row_named(rows, "safety filter"), nullptr) << "it was not measured";
+  EXPECT_EQ(met("in towers"), Json()) << "this row has no target";
+  EXPECT_EQ(row_named(rows, "safety filter"), nullptr) << "the safety filter was not measured";
   std::ostringstream out;
   print_python(out, rows);
   for (const char* words : {"101.0", "130.0", "missed", "met\n", "by the clock"}) {

@@ -7,7 +7,7 @@
 namespace skein::cli {
 namespace {
 
-/// 100 simulated seconds of two UAVs; 10 s of CPU time in all.
+/// The result of a run of two UAVs for 100 simulated seconds. All programs together need 10 s of CPU time.
 Json result(double wall_s = 2.0) {
   return {{"scenario", "towers"},
           {"status", "completed"},
@@ -40,7 +40,7 @@ Json floor_report(double wall_s) {
   return {{"uavs", 2}, {"rounds", 4000}, {"wall_s", wall_s}, {"cpu_s", 4.0}, {"messages", 23}, {"bytes", 5000}};
 }
 
-TEST(BenchReport, Median) {
+TEST(BenchReport, MedianIsTheMiddleValue) {
   EXPECT_EQ(median({}), 0.0);
   EXPECT_EQ(median({3.0}), 3.0);
   EXPECT_EQ(median({5.0, 1.0, 3.0}), 3.0);
@@ -94,7 +94,7 @@ TEST(BenchReport, RoundsAreComparedPairByPair) {
   EXPECT_EQ(entry["simulation_cpu_ms_per_round"]["median"], 1.0);
 }
 
-TEST(BenchReport, AStepIsOfTheMedianRun) {
+TEST(BenchReport, TheTimeOfAStepIsThatOfTheMedianRun) {
   // 2,000 steps in 2, 4 and 1 s; 10 s of CPU each.
   const Json entry = step_entry({result(2.0), result(4.0), result(1.0)});
   EXPECT_EQ(entry["round_ms"], 1.0);
@@ -102,7 +102,7 @@ TEST(BenchReport, AStepIsOfTheMedianRun) {
   EXPECT_EQ(step_entry({Json::object()})["round_ms"], 0.0);
 }
 
-TEST(BenchReport, TheBreakdownIsOfTheMedianRun) {
+TEST(BenchReport, TheBreakdownIsThatOfTheMedianRun) {
   const Json entry = speed_entry({result(4.0), result(2.0), result(1.0)}, {{"mean_ms", 0.2}});
   EXPECT_EQ(entry["real_time_factor"]["median"], 50.0);
   EXPECT_EQ(entry["real_time_factor"]["min"], 25.0);
@@ -119,13 +119,13 @@ Json named(const Json& targets, const std::string& name) {
   return {{"value", nullptr}, {"met", nullptr}, {"factor", 0.0}};
 }
 
-/// The same run as one process.
+/// The result of the same run in one process.
 Json in_one_process(Json run) {
   run["processes"] = {{"one_process", {{"cpu_s", 10.0}, {"memory_share_mb", 50.0}}}};
   return run;
 }
 
-TEST(BenchReport, TargetsSayByHowMuch) {
+TEST(BenchReport, TargetsHaveTheMeasuredValueAndItsFactor) {
   Json five = rounds_entry("cyclonedds", 5, {{result(2.0), floor_report(2.0)}});
   const Json report = {
       {"speed",
@@ -165,7 +165,7 @@ TEST(BenchReport, ATargetThatWasNotMeasuredIsNeitherMetNorMissed) {
   for (const Json& target : targets) EXPECT_TRUE(target["met"].is_null() && target["value"].is_null()) << target;
 }
 
-TEST(BenchReport, InOneProcessTheServersShareIsItsOwnClocks) {
+TEST(BenchReport, InOneProcessTheServersShareIsWhatItsOwnClockMeasures) {
   Json run = in_one_process(result());
   run["timing"]["cpu_s"] = 4.0;
   const Json work = work_of(run), of_server = work["exchange"]["by_program"]["sim_server"];
@@ -187,7 +187,7 @@ TEST(BenchReport, ARunWithoutAMemberIsNoRunToTheEnd) {
   EXPECT_FALSE(ran_to_the_end(aborted));
 }
 
-TEST(BenchReport, RadioCountsWhatWasInSightAndTheMedianOfRelays) {
+TEST(BenchReport, TheRadioEntryHasTheMedianOfTheRelays) {
   const Json relay = relay_entry(
       "fastdds",
       {{{"bytes", 200}, {"router_us", {{"median", 90.0}}}, {"relay_us", {{"median", 60.0}}}, {"times_relay", 1.5}}});

@@ -21,7 +21,7 @@ TEST(BenchScenario, EverySizeIsAValidScenario) {
     ASSERT_EQ(scenario.fleet.size(), uavs);
     for (std::size_t i = 0; i < uavs; ++i) {
       EXPECT_EQ(scenario.fleet[i].vehicle.role, i % 5 < 2 ? Role::explorer : Role::photographer);
-      EXPECT_LT(scenario.fleet[i].start.x(), -5.0);  // towers and station are beyond
+      EXPECT_LT(scenario.fleet[i].start.x(), -5.0);  // the towers and the station have greater x
       for (std::size_t j = 0; j < i; ++j) {
         EXPECT_GE((scenario.fleet[i].start - scenario.fleet[j].start).norm(), 5.0);
       }

@@ -23,7 +23,7 @@ TEST(BenchSizes, LargeFleetsAreMeasuredInOneProcessOnly) {
                             "1000 UAVs: measured in one process only, because over DDS a fleet has at most 128 UAVs"}));
 }
 
-TEST(BenchSizes, TheProfileSaysNothingOfDds) {
+TEST(BenchSizes, TheProfileMeasuresNothingOverDds) {
   const BenchSizes sizes = sizes_that_fit({100, kMostUavs}, std::nullopt, false);
   EXPECT_EQ(uavs_of(sizes), (std::vector<std::size_t>{100, kMostUavs}));
   for (const BenchSize& fleet : sizes.fleets) EXPECT_FALSE(fleet.over_dds);
@@ -37,7 +37,8 @@ TEST(BenchSizes, AFleetThatDoesNotFitIntoMemoryIsLeftOutWithALine) {
                                                   "about 15055 MB of memory, and this host has 1000 MB left"}));
 }
 
-/// The estimates for DDS and for one process decide separately: each fleet of 1 to 128 UAVs with each memory.
+/// The estimates for DDS and for one process decide separately. Tests fleets of 1 to 128 UAVs with little and much
+/// memory.
 TEST(BenchSizes, EachWayIsMeasuredIfItsEstimateFits) {
   for (std::size_t uavs = 1; uavs <= kMostUavsOverDds; ++uavs) {
     for (std::uint64_t left = 50'000'000; left < 1'400'000'000; left += 50'000'000) {

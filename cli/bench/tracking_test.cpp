@@ -14,7 +14,7 @@
 namespace skein::cli {
 namespace {
 
-/// Errors up to a known bound.
+/// A table of random errors below the bound c0 + c1 * speed + c2 * acceleration.
 results::TrackingTable drawn_table(double c0, double c1, double c2, int count) {
   results::TrackingTable table;
   RandomStream random(1, "bench_tracking", 0);
@@ -38,7 +38,7 @@ TEST(BenchTracking, FindsTheBoundThatTheErrorsHave) {
   }
 }
 
-TEST(BenchTracking, HoldsForTheShareThatIsAsked) {
+TEST(BenchTracking, TheBoundHoldsForTheRequestedShareOfSamples) {
   results::TrackingTable table;
   for (int i = 0; i < 99; ++i) table.add("explorer", 1.0, 0.0, 0.1);
   table.add("explorer", 1.0, 0.0, 5.0);
@@ -47,7 +47,7 @@ TEST(BenchTracking, HoldsForTheShareThatIsAsked) {
   EXPECT_LT(most.at(1.0, 0.0), 0.2);
   EXPECT_DOUBLE_EQ(all.covered, 1.0);
   EXPECT_GE(all.at(1.0, 0.0), 5.0);
-  EXPECT_EQ(fit_bound(table, "photographer", 0.99).covered, 0.0) << "of which there are no samples";
+  EXPECT_EQ(fit_bound(table, "photographer", 0.99).covered, 0.0) << "the table has no samples of a photographer";
 }
 
 TEST(BenchTracking, ReadsWhatARunWrote) {
@@ -58,7 +58,7 @@ TEST(BenchTracking, ReadsWhatARunWrote) {
   results::read_tracking(file, table);
   EXPECT_EQ(table.bins(), written.bins());
   results::read_tracking(file, table);
-  EXPECT_EQ(table.quantiles().samples, 6000U) << "of two runs";
+  EXPECT_EQ(table.quantiles().samples, 6000U) << "the samples of both runs";
   std::filesystem::remove(file);
   EXPECT_THROW(results::read_tracking(file, table), InputError);
 }

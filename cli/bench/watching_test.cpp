@@ -23,10 +23,10 @@ TEST(WatchingEntries, HoldTheMedianOfTheRatiosOfPairs) {
   EXPECT_DOUBLE_EQ(entry["first_picture_ms"]["median"], 700.0);
   EXPECT_DOUBLE_EQ(entry["script_ms"]["min"], 2.0);
   EXPECT_DOUBLE_EQ(entry["pictures"]["median"], 200.0);
-  EXPECT_TRUE(entry["draw_calls"].is_null()) << "nobody counted them";
+  EXPECT_TRUE(entry["draw_calls"].is_null()) << "no flight counted draw calls";
 }
 
-TEST(WatchingEntries, SayNothingOfWhatFailed) {
+TEST(WatchingEntries, LeaveOutFlightsThatFailed) {
   const Json entry = watching_entry({{Json(), flown(1.0, 1.0), Json()}});
   EXPECT_TRUE(entry["cpu_ratio"].is_null());
   EXPECT_TRUE(entry["first_picture_ms"].is_null());

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(AgentsFolder, GivesWhatBearsTheAgentsNameAndItsMapsInTime) {
+TEST(AgentsFolder, GivesTheFilesNamedAfterTheAgentAndItsMapsInTime) {
   std::string name = fs::temp_directory_path() / "skein-agents-XXXXXX";
   ASSERT_NE(::mkdtemp(name.data()), nullptr);
   const fs::path out = name, folder = out / kAgentsFolder / "jurong";

@@ -1,4 +1,4 @@
-// Files for docker-compose, of drawn fleets: who shares a network with whom, and what a container may do and see.
+// Files for docker-compose, for random fleets: which services share a network, and what a container may do and see.
 #include "cli/compose/compose_file.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class ComposeFile : public testing::Test {
     Compose file() const { return Compose(compose_file(plan, layout)); }
   };
 
-  /// A folder of an odd name with scene, vehicle, parameters and scenario.
+  /// The plan of a fleet whose scene, vehicle, parameters and scenario are in a folder with an odd name.
   FleetPlan plan_of(const Texts& uavs, bool scene_files, bool own_vehicle, const RunOptions& options) {
     fs::create_directories(dir_);
     for (const std::string& file : kSceneFiles) write_text(dir_ / file, "");
@@ -149,7 +149,8 @@ TEST_F(ComposeFile, EachContainerMayDoLittle) {
       EXPECT_EQ(texts_of(file.of(service, "security_opt")), Texts{"no-new-privileges:true"});
       EXPECT_NE(file.text(service, "user").substr(0, 2), "0:");
       EXPECT_GT(file.of(service, "pids_limit").as<int>(), 0);
-      EXPECT_EQ(file.of(service, "logging")["options"]["max-size"].as<std::string>(""), "64m") << "of the engine's log";
+      EXPECT_EQ(file.of(service, "logging")["options"]["max-size"].as<std::string>(""), "64m")
+          << "limits the engine's log";
       for (const char* key : {"mem_limit", "healthcheck", "stop_grace_period", "restart", "image"}) {
         EXPECT_TRUE(file.of(service, key).IsDefined()) << service << ' ' << key;
       }
@@ -174,7 +175,7 @@ TEST_F(ComposeFile, EachProgramIsToldItsPeersByNamesThatTheyHave) {
         }
       }
     }
-    EXPECT_EQ(all.size(), count) << "two of one name";
+    EXPECT_EQ(all.size(), count) << "two services have the same name";
     for (const std::string& service : file.services()) {
       const NetworkConfig config = read_network(filled_in(file.of(service, "environment")["SKEIN_NETWORK"].Scalar()));
       for (const std::string& network : file.networks_of(service)) {
@@ -187,7 +188,7 @@ TEST_F(ComposeFile, EachProgramIsToldItsPeersByNamesThatTheyHave) {
         EXPECT_EQ(peers, members) << service << " in " << network;
       }
       for (const auto& [domain, network] : config.domains) {
-        EXPECT_TRUE(file.networks_of(service).contains(domain)) << service << " is told of " << domain;
+        EXPECT_TRUE(file.networks_of(service).contains(domain)) << service << " is told about " << domain;
       }
     }
   });
@@ -207,13 +208,13 @@ TEST_F(ComposeFile, TheStationAloneServesThePageInANetworkOfItsOwn) {
     }
     if (!view) return;
     EXPECT_EQ(file.members("view"), Names{"station"});
-    EXPECT_FALSE(file.network("view")["internal"].IsDefined()) << "nothing is published of a network that is";
+    EXPECT_FALSE(file.network("view")["internal"].IsDefined()) << "Docker publishes no ports of an internal network";
     const std::string listens = file.option("station", "--view-listen"), alias = listens.substr(0, listens.find(':'));
-    EXPECT_EQ(file.aliases("station", "view"), Texts{alias}) << "in no other network it listens";
+    EXPECT_EQ(file.aliases("station", "view"), Texts{alias}) << "the station listens for browsers in no other network";
     const bool local = view->published.is_loopback();
     EXPECT_EQ(texts_of(file.of("station", "ports")),
               Texts{(local ? "127.0.0.1:8123" : "[2001:db8::7]:80") + listens.substr(listens.find(':'))});
-    EXPECT_EQ(file.option("station", "--view-name"), local ? "" : "2001:db8::7") << "the first of them";
+    EXPECT_EQ(file.option("station", "--view-name"), local ? "" : "2001:db8::7") << "the first of the given names";
     EXPECT_EQ(file.mounts("station").at("/view"), view->folder);
     EXPECT_EQ(file.option("station", "--view-key"), "/view/view.key");
   });
@@ -264,7 +265,7 @@ TEST_F(ComposeFile, APlannerInPythonHasItsFilesAndAnImageWithPython) {
   EXPECT_EQ(fleet.file().option("uav_agent-a", "--planner"), spec + ":/planner.yaml");
 }
 
-TEST_F(ComposeFile, AgentsSeeOneAnothersResultsAsLittleAsTheServers) {
+TEST_F(ComposeFile, AnAgentSeesNeitherTheResultsOfOtherAgentsNorThoseOfTheServers) {
   for_all([](const Fleet& fleet, const Compose& file) {
     std::map<std::string, Names> users;
     for (const std::string& service : file.services()) {
@@ -295,7 +296,7 @@ TEST_F(ComposeFile, PlannersGetTheirParametersAsTheUserWroteThem) {
   });
 }
 
-TEST_F(ComposeFile, SubnetsLieBesideEachOtherInTheOneThatIsGiven) {
+TEST_F(ComposeFile, SubnetsLieBesideEachOtherInTheGivenOne) {
   for_all([](const Fleet& fleet, const Compose& file) {
     std::set<std::uint32_t> taken;
     for (const std::string& network : file.networks()) {
@@ -333,7 +334,7 @@ TEST_F(ComposeFile, AProgramOfTheUsersOwnImageIsToldItsRoleItsRadioTopicsAndTheT
   EXPECT_EQ(roles, (std::set<std::string>{"explorer", "photographer"}));
 }
 
-TEST_F(ComposeFile, MistakesAreReportedWithWhatWouldBeRight) {
+TEST_F(ComposeFile, MistakesAreReportedWithACorrectValue) {
   const auto fleet = [&](const Texts& names) { return Fleet{plan_of(names, false, false, {}), {}}; };
   for (const Texts& alike : {Texts{"jurong", "Jurong"}, Texts{"a", "world"}, Texts{"GCS"}}) {
     EXPECT_NE(error_of(fleet(alike)).find("choose another name"), std::string::npos) << alike.back();
@@ -366,7 +367,7 @@ TEST_F(ComposeFile, MistakesAreReportedWithWhatWouldBeRight) {
   }
 }
 
-TEST_F(ComposeFile, DockerComposeTakesIt) {
+TEST_F(ComposeFile, DockerComposeAcceptsTheFile) {
   const std::vector<Texts> programs = compose_programs();
   if (programs.empty()) GTEST_SKIP() << "there is no docker-compose here";
   for (unsigned seed = 0; seed < 6; ++seed) {

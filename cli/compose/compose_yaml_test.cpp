@@ -95,7 +95,7 @@ class HostileTexts : public testing::Test {
     run.planner = "hover";
     return plan_fleet(run, programs_.dir());
   }
-  /// nullopt: it was refused, as the user's mistake.
+  /// The compose file of this plan; nullopt if Skein refuses the plan as the user's mistake.
   static std::optional<std::string> file_of(const FleetPlan& plan, const ComposeLayout& layout) {
     try {
       return compose_file(plan, layout);
@@ -103,7 +103,7 @@ class HostileTexts : public testing::Test {
       return std::nullopt;
     }
   }
-  /// The path of each value that differs, by name.
+  /// Expects the same structure and keys in both nodes. Values may differ. @param path  of the nodes, for messages
   static void expect_same_but_for_values(const YAML::Node& one, const YAML::Node& other, const std::string& path) {
     ASSERT_EQ(one.Type(), other.Type()) << path;
     ASSERT_EQ(one.size(), other.size()) << path;
@@ -152,7 +152,7 @@ TEST_F(HostileTexts, AreReadBackAsTheyWereGivenOrRefused) {
     EXPECT_EQ(arguments, std::vector<std::string>{"--planner=hover:note=" + text});
     EXPECT_EQ(without_doubling(agent["volumes"][0]["source"].as<std::string>()), *layout.results / "agents" / uav);
     EXPECT_EQ(without_doubling(agent["volumes"][2]["source"].as<std::string>()), *layout.build / "bin");
-    // The comment has two lines for every reader, whichever characters end a line for it.
+    // Whichever characters a reader takes for the end of a line, it finds two lines of comment.
     std::size_t end = file->find('\n', file->find('\n') + 1);
     EXPECT_TRUE(file->substr(end + 1).starts_with("\"x-program\""));
     EXPECT_TRUE(
@@ -161,7 +161,7 @@ TEST_F(HostileTexts, AreReadBackAsTheyWereGivenOrRefused) {
   EXPECT_GT(taken, kDrawn / 10);
 }
 
-TEST_F(HostileTexts, AreNoNamesOfImages) {
+TEST_F(HostileTexts, AreRefusedAsNamesOfImages) {
   const FleetPlan fleet = plan();
   const std::string uav = fleet.planners[0].uav;
   for (int i = 0; i < kDrawn; ++i) {
@@ -184,8 +184,8 @@ TEST_F(HostileTexts, AreNoNamesOfImages) {
   }
 }
 
-// bash makes the same words of the comment's command as of the command itself.
-TEST_F(HostileTexts, CommandsOfCommentsAreOfTheSameWords) {
+// The comment shows the command that wrote the file. bash must split it into the words of that command.
+TEST_F(HostileTexts, TheCommandInACommentHasTheSameWordsInBash) {
   for (int i = 0; i < 40; ++i) {
     const std::string text = draw_hostile_text(random_) + ".";
     const fs::path out = programs_.dir() / "words";
@@ -195,8 +195,8 @@ TEST_F(HostileTexts, CommandsOfCommentsAreOfTheSameWords) {
   }
 }
 
-// The readers of docker-compose that are here agree with the library that writes.
-TEST_F(HostileTexts, AreTheSameToDockerCompose) {
+// Each docker-compose on this machine must read the same values as yaml-cpp, the library that writes the file.
+TEST_F(HostileTexts, AreReadBackByDockerCompose) {
   const auto programs = compose_programs();
   if (programs.empty()) GTEST_SKIP() << "there is no docker-compose here";
   const FleetPlan usual = plan();
@@ -204,7 +204,7 @@ TEST_F(HostileTexts, AreTheSameToDockerCompose) {
     FleetPlan drawn = usual;
     std::string text;
     for (int part = 0; part < 8; ++part) text += draw_hostile_text(random_);
-    // docker-compose prints these as \N and \uFEFF, which yaml-cpp, the reader here, makes other bytes of.
+    // docker-compose prints these characters as \N and \uFEFF, which yaml-cpp reads back as other bytes.
     if (text.find("\xC2\x85") != std::string::npos || text.find("\xEF\xBB\xBF") != std::string::npos) continue;
     drawn.planners[0].spec = "hover:note=" + text;
     const std::optional<std::string> file = file_of(drawn, {});

@@ -1,4 +1,4 @@
-// Files for `docker stack`, of drawn fleets: where programs run, what goes with them to their nodes, and what does not.
+// Files for `docker stack`, for random fleets: on which node each program runs, and which files go there with it.
 #include "cli/compose/stack_parts.hpp"
 
 #include <gtest/gtest.h>
@@ -66,7 +66,7 @@ class StackParts : public testing::Test {
   const fs::path dir_ = programs_.dir() / "a 'b'";
 };
 
-TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
+TEST_F(StackParts, ProgramsRunOnTheirNodesAndEachAgentGetsOnlyItsOwnFiles) {
   for (unsigned seed = 0; seed < kStacks && !HasFailure(); ++seed) {
     SCOPED_TRACE("stack " + std::to_string(seed));
     const Stack stack = draw(seed);
@@ -79,7 +79,8 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
     }
     for (const std::string& service : file.services()) {
       const YAML::Node deploy = file.of(service, "deploy");
-      EXPECT_EQ(deploy["endpoint_mode"].as<std::string>(), "dnsrr") << "DDS finds nobody behind a service's address";
+      EXPECT_EQ(deploy["endpoint_mode"].as<std::string>(), "dnsrr")
+          << "DDS finds no peers behind the virtual address of a service";
       const auto node = stack.layout.nodes.find(service);
       const bool agent = programs::is_agent(service);
       const std::string where = node != stack.layout.nodes.end() ? "node.hostname == " + node->second
@@ -88,7 +89,7 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
       const YAML::Node placement = deploy["placement"];
       const Texts constraints = placement ? texts_of(placement["constraints"]) : Texts();
       EXPECT_EQ(constraints, where.empty() ? Texts() : Texts{where}) << service;
-      EXPECT_FALSE(file.of(service, "healthcheck")) << "nobody hears the name of a service that is not healthy yet";
+      EXPECT_FALSE(file.of(service, "healthcheck")) << "DNS has no name for a service that is not healthy yet";
       EXPECT_EQ(file.option(service, "--lease"), std::to_string(stack.plan.options.lease_s.value_or(10)));
       Texts sent;
       for (const YAML::Node& config : file.of(service, "configs")) {
@@ -103,7 +104,7 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
       for (const auto& [there, here] : file.mounts(service)) mounted.push_back(here);
       EXPECT_EQ(has(mounted, "points.pcd"), stack.scene_files && service == programs::kSimServer);
       if (agent) {
-        EXPECT_EQ(mounted.size(), 1U) << "its results alone";
+        EXPECT_EQ(mounted.size(), 1U) << "only its results folder is mounted";
       }
       Texts keys;
       for (const YAML::Node& secret : file.of(service, "secrets")) {
@@ -116,14 +117,15 @@ TEST_F(StackParts, ProgramsAreWhereTheyBelongAndAgentsGetTheirFilesAlone) {
   }
 }
 
-TEST_F(StackParts, AreWhatDockerReads) {
+TEST_F(StackParts, DockerReadsTheFile) {
   const auto ends_well = [&](const std::string& command) {
     const ExitStatus exit =
         run_to_end({"docker", {"/bin/sh", "-c", command}, environment_with({}), dir_ / "docker.log"});
     return exit.code == 0;
   };
   fs::create_directories(dir_);
-  if (!ends_well("docker stack config --help")) GTEST_SKIP() << "no docker here that checks files of stacks";
+  if (!ends_well("docker stack config --help"))
+    GTEST_SKIP() << "no Docker client on this machine checks files of stacks";
   for (unsigned seed = 0; seed < 4; ++seed) {
     Stack stack = draw(seed);
     for (const auto& [program, vendor] : dds_vendors(stack.plan)) {

@@ -1,5 +1,5 @@
-// Fault tests of earlier versions: what becomes of each key, what stays as it is, and that the properties judge as the
-// keys did. Runs are made up.
+// The conversion of fault tests of earlier versions: which property replaces each key, and which text stays as it is.
+// The properties must judge made-up runs as the keys did.
 #include "cli/fault_tests/conversion.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ struct OldKey {
   const char *expect, *properties;
 };
 
-TEST_F(Converted, EachKeyHasItsProperty) {
+TEST_F(Converted, EachKeyBecomesItsProperty) {
   const std::vector<OldKey> table = {
       {"collisions: {at_most: 2}", "  no_collision: off\n  collisions: always result(collisions) <= 2\n"},
       {"collisions: {at_least: 0}", "  no_collision: off\n"},
@@ -83,7 +83,8 @@ TEST_F(Converted, EachKeyHasItsProperty) {
 
 TEST_F(Converted, AnExpectationThatHoldsByDefaultOrIsStatedElsewhereIsDropped) {
   EXPECT_EQ(text_of(kFlown + "expect: {collisions: 0, custody: kept}\n"), kFlown);
-  EXPECT_EQ(text_of("faults: []\nexpect: {collisions: 0}\n"), "faults: []\nexpect: {}\n") << "still a fault test";
+  EXPECT_EQ(text_of("faults: []\nexpect: {collisions: 0}\n"), "faults: []\nexpect: {}\n")
+      << "the file remains a fault test";
   const std::string stated = "properties:\n  score_share: {share: 90 %}\n  custody_exact: ready\n";
   EXPECT_EQ(text_of(kFlown +
                     "expect: {score_vs_fault_free: {at_least: 0.9},\n"
@@ -96,7 +97,7 @@ TEST_F(Converted, AnExpectationThatHoldsByDefaultOrIsStatedElsewhereIsDropped) {
   EXPECT_EQ(text_of(kFlown + "expect: {custody: none, collisions: {at_least: 0}}\n" + capsule), kFlown + capsule);
 }
 
-TEST_F(Converted, AllOutsideExpectStaysAsItIs) {
+TEST_F(Converted, TheTextOutsideExpectStaysAsItIs) {
   const std::string text = text_of("# a test\n" + kFlown +
                                    "expect:   # two things\n  score: {at_least: 3}  # '#1'\n\n  radio: {sent: 3}\n"
                                    "# behind\nproperties:   \n    low: always z(alpha) < 60 m # low\n\n# end");
@@ -154,7 +155,7 @@ struct Drawn {
 
   std::uint64_t below(std::uint64_t n) { return random() % n; }
 
-  /// A capture that may be delivered and acknowledged, and a message with captures that is lost or late.
+  /// Adds a capture that may be delivered and acknowledged, and a message with captures that is lost or late.
   void add_capture(std::uint64_t k, const std::string& uav) {
     const std::uint64_t number = run.captures.size();
     const bool is_delivered = below(2) > 0, is_acknowledged = below(2) > 0, is_lost = below(2) > 0;
@@ -170,7 +171,7 @@ struct Drawn {
     if (is_acknowledged) events.push_back({"acknowledged", uav, k + 7, 1.0});
   }
 
-  /// A window with limits near what happens in it; `holds` is what an earlier version says of it.
+  /// Adds a window with limits near the values in it. Updates `holds` with the verdict of an earlier version.
   std::string window() {
     const std::uint64_t from = 2 * below(500), to = from + 2 + 2 * below(100);
     const bool has_end = below(3) > 0, is_alpha = below(2) > 0;

@@ -33,7 +33,7 @@ class FaultTestFile : public testing::Test {
   FakePrograms programs_;
 };
 
-TEST_F(FaultTestFile, SaysWhatIsFlownAndWithWhichFaults) {
+TEST_F(FaultTestFile, NamesTheRunsAndTheirFaults) {
   const FaultTest test = load(
       "name: mine\ndescription: mine too\n"
       "run: {scenario: ./small.yaml, planner: hover, seed: 7, duration_s: 33, dds: mixed}\n"
@@ -58,7 +58,7 @@ TEST_F(FaultTestFile, FaultsMayStandInAnotherFile) {
   EXPECT_EQ(load("run: {scenario: ./small.yaml}\nfaults: ./others.yaml\nexpect: {}").plan.faults.faults.size(), 2u);
 }
 
-TEST_F(FaultTestFile, AnythingWrongIsNamedWithItsLine) {
+TEST_F(FaultTestFile, EachMistakeIsReportedWithItsLine) {
   const std::string run = kBlackout;
   refused("expect: {}", "mine.yaml:1: faults: is missing");
   refused(run + "expect: {exit_cod: 3}", "mine.yaml:3: unknown key 'expect.exit_cod'; did you mean 'exit_code'?");
@@ -156,7 +156,7 @@ TEST_F(FaultTestFile, AFolderIsAllItsFilesAndAFileIsItself) {
   EXPECT_THROW(fault_test_files(programs_.dir() / "empty"), InputError);
 }
 
-/// A run that went well, to be spoilt.
+/// A run without failures. Each test changes it.
 class JudgedRun : public FaultTestFile {
  protected:
   JudgedRun() {
@@ -181,12 +181,12 @@ class JudgedRun : public FaultTestFile {
   results::RunRecord run_;
   std::optional<results::RunRecord> again_;
   int exit_code_ = 0;
-  std::string place_;  ///< of the last that did not hold
+  std::string place_;  ///< file, line and key of the last expectation that did not hold
 };
 
-TEST_F(JudgedRun, AGoodRunMeetsWhatIsUsual) { EXPECT_EQ(broken(""), ""); }
+TEST_F(JudgedRun, AGoodRunMeetsTheDefaultExpectations) { EXPECT_EQ(broken(""), ""); }
 
-TEST_F(JudgedRun, TheUsualExpectationsApplyByDefault) {
+TEST_F(JudgedRun, TheDefaultExpectationsApplyUnlessTheFileReplacesThem) {
   run_.result["status"] = "no_takeoff";
   run_.result["digest"] = nullptr;
   run_.result["faults"][0]["began_step"] = nullptr;
@@ -217,7 +217,7 @@ TEST_F(JudgedRun, RepetitionsHaveTheSameDigest) {
             "expect.same_digest: expected the digest \"d1\" of the repetition 'again' too, seen \"d2\"; compare  with "
             "\n");
   run_.result["digest"] = again_->result["digest"] = nullptr;
-  EXPECT_NE(broken("deterministic: false"), "") << "a missing digest is not an equal one";
+  EXPECT_NE(broken("deterministic: false"), "") << "a missing digest is not equal to any other";
 }
 
 TEST_F(JudgedRun, TheReportNamesTheLineOfAFailedExpectation) {
@@ -225,11 +225,12 @@ TEST_F(JudgedRun, TheReportNamesTheLineOfAFailedExpectation) {
   EXPECT_NE(broken("status: completed,\n  radio: {\n  sent: 3}"), "");
   EXPECT_EQ(place_, file + ":5: expect.radio.sent: ");
   run_.result["deterministic"] = false;
-  EXPECT_NE(broken("status: completed"), "") << "what is usual";
-  EXPECT_EQ(place_, file + ":3: expect.deterministic: ") << "stands nowhere but in `expect`";
+  EXPECT_NE(broken("status: completed"), "") << "the file states the default expectation";
+  EXPECT_EQ(place_, file + ":3: expect.deterministic: ")
+      << "the file does not state this expectation, so the message names the line of `expect`";
 }
 
-TEST_F(FaultTestFile, AnotherSeedDrawsOtherTimes) {
+TEST_F(FaultTestFile, AnotherSeedDrawsOtherTimesOfFaults) {
   const FaultTest test = load(
       "run: {scenario: ./small.yaml, duration_s: 60}\nfaults: [{at_s: [10, 20], until_s: [30, 40], blackout: alpha}]\n"
       "expect: {}\n");
@@ -240,7 +241,7 @@ TEST_F(FaultTestFile, AnotherSeedDrawsOtherTimes) {
     const Fault& fault = drawn.plan.faults.faults.front();
     EXPECT_TRUE(fault.at_s >= 10.0 && fault.at_s <= 20.0) << fault.at_s;
     EXPECT_TRUE(*fault.until_s >= 30.0 && *fault.until_s <= 40.0) << *fault.until_s;
-    EXPECT_EQ(with_seed(test, seed).plan.faults.faults.front().at_s, fault.at_s) << "the same again";
+    EXPECT_EQ(with_seed(test, seed).plan.faults.faults.front().at_s, fault.at_s) << "the same seed draws the same time";
     begins.insert(fault.at_s);
   }
   EXPECT_GT(begins.size(), 15u);

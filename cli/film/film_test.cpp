@@ -19,7 +19,7 @@ TEST(FilmTimes, AreSpreadOverTheFlightAndEndWithIt) {
   EXPECT_EQ(times[40], 300.0);
 }
 
-TEST(FilmTimes, GoAtTheSpeedThatWasAskedFor) {
+TEST(FilmTimes, FollowTheRequestedSpeed) {
   FilmOptions options;
   options.fps = 25;
   options.speed = 8.0;
@@ -33,7 +33,7 @@ TEST(FilmTimes, TakeHalfAMinuteByDefault) {
   EXPECT_EQ(FilmTimes({}, 0.0, 600.0).size(), static_cast<std::size_t>(30 * 25 + 1));
 }
 
-TEST(FilmTimes, RefuseWhatIsNoFilm) {
+TEST(FilmTimes, RefuseValuesThatMakeNoFilm) {
   EXPECT_THROW(FilmTimes({}, 60.0, 60.0), InputError);
   EXPECT_THROW(FilmTimes({}, 0.0, 0.0), InputError);
   FilmOptions endless;
@@ -41,7 +41,7 @@ TEST(FilmTimes, RefuseWhatIsNoFilm) {
   EXPECT_THROW(FilmTimes(endless, 0.0, 600.0), InputError);
 }
 
-TEST(FileUrl, WritesWhatMeansSomethingInAnAddressByItsNumber) {
+TEST(FileUrl, PercentEncodesCharactersWithAMeaningInAUrl) {
   EXPECT_EQ(file_url("/tmp/a-b_c.html"), "file:///tmp/a-b_c.html");
   EXPECT_EQ(file_url("/tmp/50 %#?.html"), "file:///tmp/50%20%25%23%3F.html");
 }

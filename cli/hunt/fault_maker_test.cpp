@@ -1,4 +1,4 @@
-// Drawn schedules of faults: a fault file of each is accepted, read back as it was, and over in time.
+// Random schedules of faults: Skein accepts each as a fault file, reads it back unchanged, and all faults end in time.
 #include "cli/hunt/fault_maker.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint64_t kSchedules = 400;
 
-/// How long it is in force, or would be once its condition holds.
+/// How long a fault is in force. If it waits for a condition, the time counts from when the condition holds.
 double length_s(const Fault& fault) { return fault.waits ? fault.for_s.value() : fault.until_s.value() - fault.at_s; }
 
 /// The longest time that a fault may last. No planner can save a vehicle that lacks thrust, or flies by a wrong
@@ -44,7 +44,7 @@ class FaultMakers : public testing::Test {
     space_.ground_program = true;
   }
 
-  /// Schedules and variations of them, as a search makes them.
+  /// Calls `look` with random schedules and with variations of them, as a search makes them.
   void each(const auto& look) const {
     const FaultMaker maker(towers_, space_);
     std::vector<Fault> former;
@@ -81,7 +81,7 @@ TEST_F(FaultMakers, DrawnFaultsMakeAFaultFileThatReadsBackTheSame) {
   });
 }
 
-TEST_F(FaultMakers, EachLastsLongEnoughToActHoweverLongAnExchangeIs) {
+TEST_F(FaultMakers, EachFaultLastsLongEnoughToActWhateverTheExchangePeriod) {
   for (const double period_s : {kTickS, 0.05, 0.75, 1.0}) {  // 1 s is the longest
     towers_.exchange_period_s = period_s;
     each([&](const std::vector<Fault>& faults) {
@@ -95,7 +95,7 @@ TEST_F(FaultMakers, EachLastsLongEnoughToActHoweverLongAnExchangeIs) {
   }
 }
 
-TEST_F(FaultMakers, AllIsOverInTimeButSomeDeaths) {
+TEST_F(FaultMakers, AllFaultsEndInTimeExceptDeathsForGood) {
   const std::vector<std::string> uavs = towers_.uav_names();
   int deaths = 0, kills = 0;
   each([&](const std::vector<Fault>& faults) {
@@ -119,7 +119,7 @@ TEST_F(FaultMakers, AllIsOverInTimeButSomeDeaths) {
   EXPECT_LT(3 * deaths, kills);
 }
 
-/// A program that is killed for good has no end. What becomes of it when it is varied has one, or is such a death.
+/// The death of a program that is killed for good has no end. A variation of it has an end, or is again such a death.
 TEST_F(FaultMakers, VariationsOfADeathForGoodEndInTime) {
   const FaultMaker maker(towers_, space_);
   const std::vector<Fault> death = {{.at_s = 20.0, .until_s = std::nullopt, .action = Kill{towers_.uav_names()[0]}}};
@@ -146,15 +146,16 @@ TEST_F(FaultMakers, NoFaultLastsLongerThanItsKindMay) {
       most = std::max(most, length_s(fault) / longest_s(fault));
     }
   });
-  for (const std::string& kind : fault_kinds()) EXPECT_GT(most_s[kind], 0.5) << kind << " is never long";
+  for (const std::string& kind : fault_kinds())
+    EXPECT_GT(most_s[kind], 0.5) << kind << " never lasts longer than 0.5 s";
 }
 
-/// A search goes on from any length to shorter and to longer ones, up to the limits: it is stuck with none.
+/// From a fault of any length, a search can reach shorter and longer ones, up to the limits.
 TEST_F(FaultMakers, AVariationMayLastShorterOrLonger) {
   const FaultMaker maker(towers_, space_);
   const std::string uav = towers_.uav_names()[0];
   const std::vector<FaultAction> actions = {Pause{uav}, MotorFailure{uav, 1, 0.8}, OdometryFreeze{uav}};
-  // No other fault is drawn to begin then, so one that begins there is the same with another length.
+  // No random fault begins at this time, so a fault that does is a variation of this one, with another length.
   constexpr double kBegin_s = 0.5;
   for (const FaultAction& action : actions) {
     for (const bool waits : {false, true}) {
@@ -183,7 +184,7 @@ TEST_F(FaultMakers, AVariationMayLastShorterOrLonger) {
   }
 }
 
-TEST_F(FaultMakers, EveryKindIsDrawnOrOnlyThoseThatAreWanted) {
+TEST_F(FaultMakers, EveryKindIsDrawnUnlessTheUserChoosesKinds) {
   std::set<std::string> seen;
   each([&](const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) seen.insert(fault_kind(fault));
@@ -198,7 +199,7 @@ TEST_F(FaultMakers, EveryKindIsDrawnOrOnlyThoseThatAreWanted) {
 }
 
 /// Each case must be a fault file that its run accepts, also if it varies a case of a run under other conditions.
-TEST_F(FaultMakers, OnlyFaultsThatAreInTheWeatherAreDrawn) {
+TEST_F(FaultMakers, OnlyFaultsThatArePossibleUnderTheConditionsAreDrawn) {
   LoadOptions load;
   load.duration_s = 120.0;
   std::vector<Fault> former;
@@ -235,7 +236,7 @@ TEST_F(FaultMakers, WhereNoKindIsPossibleNothingIsDrawn) {
   EXPECT_TRUE(maker.varied(loss, loss, draw).empty());
 }
 
-TEST_F(FaultMakers, ALinkIsCalledByItsEffectsToo) {
+TEST_F(FaultMakers, TheNameOfALinkFaultIncludesItsEffects) {
   LinkEffect effect;
   effect.duplication = 0.5;
   const std::vector<std::string> words = words_of({1.0, 2.0, effect});

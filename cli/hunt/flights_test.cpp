@@ -10,7 +10,7 @@
 namespace skein::cli {
 namespace {
 
-// A scenario that could be read when the hunt began may be gone, or be another one, when a case flies.
+// Somebody may delete or change the scenario after the hunt has read it and before a case flies.
 TEST(FlightsOfTrials, AScenarioThatCannotBeReadAnyMoreHasNoFindings) {
   FakePrograms programs;
   const ScratchDir folder;

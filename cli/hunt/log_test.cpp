@@ -42,7 +42,7 @@ class HuntLogFile : public testing::Test {
     for (std::size_t i = 0; i < kCases; ++i) log.add(i, "flight " + std::to_string(i), some_outcome(double(i)));
     text_ = read_text(file_);
   }
-  /// The cases that are there when it goes on.
+  /// The number of cases in the log when the hunt continues.
   std::size_t cases() const {
     const HuntLog log(dir_, kHuntSettings, false);
     return log.outcomes().size();
@@ -81,13 +81,13 @@ TEST_F(HuntLogFile, ALogDropsOnlyTheCaseThatAKillCutOff) {
   EXPECT_EQ(cases(), kCases);
 }
 
-TEST_F(HuntLogFile, CasesOfALongRoundMayComeInAnyOrder) {
+TEST_F(HuntLogFile, ALogMayHaveTheCasesOfARoundInAnyOrder) {
   write_text(file_, of_case(HuntSearch::kMostLag - 1) + "\n" + of_case(0) + "\n");
   EXPECT_EQ(cases(), HuntSearch::kMostLag);
 }
 
-// A build that draws other cases must not take the outcomes of these for theirs.
-TEST_F(HuntLogFile, ACaseThatIsAnotherOneNowIsRefused) {
+// Another build may draw other cases. It must not use the logged outcomes for them.
+TEST_F(HuntLogFile, ALogWithACaseThatThisBuildDoesNotDrawIsRefused) {
   const HuntLog log(dir_, kHuntSettings, false);
   for (std::size_t i = 0; i < kCases; ++i) {
     EXPECT_NO_THROW(log.check(i, "flight " + std::to_string(i)));
@@ -110,13 +110,13 @@ TEST_F(HuntLogFile, ADamagedLineIsRefusedAndNamed) {
       write_text(file_, damaged.replace(begin, length, instead));
       const std::string said = refusal();
       EXPECT_NE(said.find(file_.string() + ":" + std::to_string(line) + ": damaged"), std::string::npos) << said;
-      EXPECT_EQ(read_text(file_), damaged) << "it stays as it is";
+      EXPECT_EQ(read_text(file_), damaged) << "the log stays as it is";
     }
   }
   write_text(file_, text_);
   write_text(dir_ / "hunt.json", "{\"seed\": 1,");
   EXPECT_NE(refusal().find("hunt.json: damaged"), std::string::npos) << refusal();
-  EXPECT_EQ(HuntLog(dir_, kHuntSettings, true).outcomes().size(), 0U) << "begun anew, as it was asked to";
+  EXPECT_EQ(HuntLog(dir_, kHuntSettings, true).outcomes().size(), 0U) << "the caller asked for a new log";
 }
 
 class HuntLogs : public testing::Test {
@@ -152,23 +152,23 @@ TEST_F(HuntLogs, BeginningAnewKeepsAndNamesTheFindsOfEveryHuntBefore) {
   find("separation-3");
   const HuntLog third(dir_, other_, true);
   EXPECT_EQ(third.kept(), std::vector<fs::path>{dir_ / "earlier/2/finds/separation-3.yaml"})
-      << "the same settings, too";
+      << "also with the same settings";
   EXPECT_TRUE(fs::exists(dir_ / "earlier/1/finds/separation-3.yaml"));
 }
 
-TEST_F(HuntLogs, ARefusalNamesWhatDiffersAlsoIfItIsNotGivenNow) {
+TEST_F(HuntLogs, ARefusalNamesADifferentSettingAlsoIfThisCommandDoesNotHaveIt) {
   const Json in_long_rounds{{"round", 128}, {"seed", 1}};
   HuntLog(dir_, in_long_rounds, false).add(0, "first", {.digest = "ab"});
   try {
     HuntLog(dir_, other_, false);
-    ADD_FAILURE() << "continued";
+    ADD_FAILURE() << "the hunt was continued";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("differs in seed, round; choose another --out"), std::string::npos)
         << error.what();
   }
 }
 
-TEST_F(HuntLogs, TakeNoFolderOfOtherFilesAndChangeNothingThere) {
+TEST_F(HuntLogs, RefuseAFolderWithOtherFilesAndChangeNothingThere) {
   fs::permissions(dir_, fs::perms(0755));
   struct stat before {
   }, after{};
@@ -220,7 +220,7 @@ TEST_F(HuntLogs, NeverShareAFolder) {
   EXPECT_EQ(std::ranges::count(read_text(dir_ / "log.jsonl"), '\n'), 2);
 }
 
-// Otherwise the hunt would go on for hours, and the same command would fly all of it again.
+// Otherwise the hunt would fly for hours without a log, and the same command would fly all cases again.
 TEST_F(HuntLogs, ALogThatCannotBeWrittenEndsTheHunt) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -241,12 +241,12 @@ TEST_F(HuntLogs, ALogThatCannotBeWrittenEndsTheHunt) {
   int status = 0;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
-  EXPECT_EQ(HuntLog(dir_, one_, false).outcomes().size(), 1U) << "the incomplete line goes";
+  EXPECT_EQ(HuntLog(dir_, one_, false).outcomes().size(), 1U) << "the next hunt drops the incomplete line";
 }
 
 // Finds are of little use without the log and the settings of their hunt.
 TEST_F(HuntLogs, ALogStaysAsItWasWhenItsSettingsCannotBeKept) {
-  constexpr std::size_t kLimit = 300 << 10;  // on the size of files, which is to a program what a full disk is
+  constexpr std::size_t kLimit = 300 << 10;  // a limit on the size of files has the effect of a full disk
   const Json large{{"seed", 1}, {"text", std::string(2 * kLimit, 'x')}};
   HuntLog(dir_, large, false).add(0, "first", {.digest = "ab"});
   find("separation-3");
@@ -266,7 +266,7 @@ TEST_F(HuntLogs, ALogStaysAsItWasWhenItsSettingsCannotBeKept) {
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  ASSERT_EQ(status, 0) << "the settings cannot be kept";
+  ASSERT_EQ(status, 0) << "the child did not report that the settings cannot be written";
   EXPECT_TRUE(fs::exists(dir_ / "finds/separation-3.yaml"));
   EXPECT_EQ(read_text(dir_ / "log.jsonl"), log);
   EXPECT_EQ(read_text(dir_ / "hunt.json"), settings);
@@ -277,7 +277,7 @@ TEST_F(HuntLogs, ALogStaysAsItWasWhenItsSettingsCannotBeKept) {
   EXPECT_EQ(read_text(dir_ / "earlier/1/hunt.json"), settings);
 }
 
-TEST_F(HuntLogs, ThatGoOnKeepFindsWhereTheyAre) {
+TEST_F(HuntLogs, ThatContinueKeepFindsWhereTheyAre) {
   HuntLog(dir_, one_, false).add(0, "first", {.digest = "ab"});
   find("separation-3");
   const HuntLog again(dir_, one_, false);
@@ -286,7 +286,7 @@ TEST_F(HuntLogs, ThatGoOnKeepFindsWhereTheyAre) {
   EXPECT_TRUE(fs::exists(dir_ / "finds/separation-3.yaml"));
 }
 
-TEST_F(HuntLogs, WithoutFindsNothingIsKept) {
+TEST_F(HuntLogs, WithoutFindsKeepNothingOfAnEarlierHunt) {
   HuntLog(dir_, one_, false).add(0, "first", {.digest = "ab"});
   const HuntLog second(dir_, other_, true);
   EXPECT_TRUE(second.kept().empty());

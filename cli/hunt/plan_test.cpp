@@ -24,7 +24,7 @@ class HuntPlans : public testing::Test {
   void refused(const HuntOptions& hunt, const std::string& words) const {
     try {
       plan_hunt(hunt);
-      ADD_FAILURE() << "accepted, not: " << words;
+      ADD_FAILURE() << "the hunt was accepted, expected: " << words;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
     }
@@ -65,8 +65,8 @@ TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
   }
 }
 
-// Cases beyond a gap in the log would otherwise pass for cases of the new search.
-TEST_F(HuntPlans, RoundsOfAnotherSizeAreAnotherHunt) {
+// Otherwise a search with another size of rounds could take logged cases beyond a gap for its own.
+TEST_F(HuntPlans, TheSizeOfRoundsIsASettingUnlessItIsTheDefault) {
   HuntOptions hunt = options();
   EXPECT_FALSE(plan_hunt(hunt).settings.contains("round")) << "a hunt of an earlier version has no such key";
   hunt.round = 128;
@@ -87,7 +87,7 @@ TEST_F(HuntPlans, UsersTextsAndParametersStayInACapsule) {
   }
 }
 
-TEST_F(HuntPlans, AsksTheReadyOnesLessThoseThatAreNotForHunts) {
+TEST_F(HuntPlans, ChecksTheReadyPropertiesExceptThoseThatAreNotForHunts) {
   HuntOptions hunt = options();
   hunt.without = {"separation"};
   std::vector<std::string> names;
@@ -98,7 +98,7 @@ TEST_F(HuntPlans, AsksTheReadyOnesLessThoseThatAreNotForHunts) {
   EXPECT_FALSE(asks("score_share"));
 }
 
-TEST_F(HuntPlans, RefusesWhatMakesNoSense) {
+TEST_F(HuntPlans, RefusesOptionsThatMakeNoSense) {
   HuntOptions hunt = options();
   hunt.faults = {"kil"};
   refused(hunt, "--faults: there is no fault 'kil'; did you mean 'kill'?");
@@ -121,7 +121,7 @@ TEST_F(HuntPlans, RefusesWhatMakesNoSense) {
   refused(hunt, "mine.yaml:2:15: properties.low: there is no signal 'hold'; did you mean 'held'?");
 }
 
-TEST_F(HuntPlans, PropertiesHaveOtherNamesThanTheFindingsOfEveryHunt) {
+TEST_F(HuntPlans, RefusesPropertiesNamedLikeTheFindingsOfEveryHunt) {
   for (const char* name : {kCompletes, kSameDigest}) {
     HuntOptions hunt = options();
     hunt.properties = programs_.dir() / "properties.yaml";
@@ -130,7 +130,7 @@ TEST_F(HuntPlans, PropertiesHaveOtherNamesThanTheFindingsOfEveryHunt) {
   }
 }
 
-TEST_F(HuntPlans, FaultsSilenceWhatSaysNothingWithThem) {
+TEST_F(HuntPlans, FaultsTurnOffPropertiesThatTheyMakeMeaningless) {
   const HuntPlan plan = plan_hunt(options());
   const properties::PropertySet set = properties::parse_properties(plan.entries, plan.fleet.scenario);
   const auto asked = [&](const std::vector<Fault>& faults, const std::string& name) {
@@ -146,8 +146,8 @@ TEST_F(HuntPlans, FaultsSilenceWhatSaysNothingWithThem) {
   EXPECT_TRUE(asked({{1.0, 2.0, OdometryFreeze{"alpha"}}}, "custody_kept"));
 }
 
-// Another run than the one that was found is never called by its name.
-TEST(CapsuleRuns, OnlyTheDigestThatWasFoundIsTheRunThatWasFound) {
+// A capsule never reports that it reproduced the run if the run has another digest.
+TEST(CapsuleRuns, ReproduceTheRunOnlyIfTheDigestIsTheOneOfTheFind) {
   const CapsuleMark mark{"separation", "12ab", "0.0.9", "commit 77", "skein hunt"};
   EXPECT_EQ(comparison_text(mark, "12ab"),
             "this is the run that was found, bit for bit (found with skein 0.0.9, build commit 77)");

@@ -32,7 +32,7 @@ class HuntReports : public testing::Test {
     one.findings = {{kCompletes, Outcome::holds, {}, 0.0, ""}, {property, what, margin, 3.0, "told"}};
     return one;
   }
-  /// With a find of a case that broke `separation`, or without.
+  /// Writes the reports of a hunt, with or without the find of a case that broke `separation`.
   void write(bool with_find) {
     const std::vector<std::optional<TrialOutcome>> outcomes = {
         outcome("separation", Outcome::holds, 2.5), outcome("separation", Outcome::fails, -0.25),
@@ -72,18 +72,19 @@ TEST_F(HuntReports, JUnitHasACaseForEachPropertyWithItsNumbersAndCapsules) {
             std::string::npos);
   EXPECT_FALSE(case_of("clearance").child("failure"));
   const pugi::xml_node suite = xml_.child("testsuites").child("testsuite");
-  EXPECT_EQ(suite.attribute("tests").as_uint(), plan_->entries.size() + 1) << "and whether runs came to their end";
+  EXPECT_EQ(suite.attribute("tests").as_uint(), plan_->entries.size() + 1)
+      << "one more test: whether runs came to their end";
   EXPECT_EQ(suite.attribute("failures").as_uint(), 1U);
 }
 
-// A hunt that was stopped before it went into a failure has no capsule of it; the property failed all the same.
+// A hunt that was stopped before it examined a failure has no capsule of it. The property has failed all the same.
 TEST_F(HuntReports, JUnitHasAFailureAlsoForAPropertyWithoutACapsule) {
   write(false);
   const std::string message = case_of("separation").child("failure").attribute("message").value();
   EXPECT_NE(message.find("failed in 1"), std::string::npos) << message;
 }
 
-TEST_F(HuntReports, ThePageHasFindsNumbersAndEscapesWhatItQuotes) {
+TEST_F(HuntReports, ThePageHasFindsAndNumbersAndEscapesQuotedTexts) {
   write(true);
   const std::string html = page();
   for (const char* part : {"3 runs, 1 finds, 7 states of the fleet", "skein hunt &lt;here&gt; &amp; there",

@@ -1,5 +1,5 @@
-// The search: its cases depend only on the results that they may depend on, whichever others are known. It varies cases
-// that reached new states or came close to a failure.
+// A search draws each case from the seed and results that are old enough, whichever newer ones are known. It varies
+// cases that reached new states or came close to a failure.
 #include "cli/hunt/search.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ class Searches : public testing::Test {
   }
   HuntSearch search(std::uint64_t seed) const { return HuntSearch(FaultMaker(towers_, {}), seed); }
 
-  /// As if a flight had been flown: a state for each kind of fault, the less margin the more faults.
+  /// A made-up outcome of a flight: a state for each kind of fault, and less margin the more faults the case has.
   static TrialOutcome outcome_of(const HuntCase& flown) {
     TrialOutcome outcome;
     for (const Fault& fault : flown.faults) outcome.states.push_back(std::hash<std::string>()(fault_kind(fault)));
@@ -41,7 +41,7 @@ class Searches : public testing::Test {
   Scenario towers_;
 };
 
-TEST_F(Searches, ACaseHangsOnTheSeedAndOnWhatIsLongOverAlone) {
+TEST_F(Searches, ACaseDependsOnlyOnTheSeedAndOnResultsThatAreOldEnough) {
   constexpr std::size_t kCases = 120;
   HuntSearch one = search(3), other = search(3), third = search(4);
   Outcomes known_at_once, known_late;
@@ -49,7 +49,7 @@ TEST_F(Searches, ACaseHangsOnTheSeedAndOnWhatIsLongOverAlone) {
   for (std::size_t i = 0; i < kCases; ++i) {
     const std::string text = text_of(one.next(known_at_once));
     known_at_once.push_back(outcome_of(one.cases()[i]));
-    // The other one learns of each as late as may be.
+    // The other search learns each result as late as possible.
     known_late = known_at_once;
     known_late.resize(i < HuntSearch::kLag ? 0 : i - HuntSearch::kLag + 1);
     ASSERT_TRUE(other.may_go_on(known_late)) << i;
@@ -70,14 +70,14 @@ TEST_F(Searches, CasesFlyUnderAllOfTheConditions) {
       EXPECT_EQ(one.conditions, "none");
     }
     ++flown[one.conditions];
-    EXPECT_EQ(none.next(known).conditions, "") << "the scenario's own";
+    EXPECT_EQ(none.next(known).conditions, "") << "the conditions of the scenario";
     known.push_back(outcome_of(one));
   }
   ASSERT_EQ(flown.size(), conditions.size());
   for (const std::string& one : conditions) EXPECT_GT(flown[one], 10) << one;
 }
 
-TEST_F(Searches, WaitsForWhatACaseHangsOn) {
+TEST_F(Searches, ASearchWaitsForTheResultsOnWhichACaseDepends) {
   HuntSearch one = search(1);
   Outcomes outcomes;
   for (std::size_t i = 0; i < HuntSearch::kLag; ++i) one.next(outcomes);
@@ -89,8 +89,8 @@ TEST_F(Searches, WaitsForWhatACaseHangsOn) {
   EXPECT_TRUE(one.may_go_on(outcomes));
 }
 
-TEST_F(Searches, TheFirstCaseHasNoFaultsAndLaterOnesGoTowardsLessMargin) {
-  // Faults in the last hundred cases, if a margin is the less the more there are, or the other way round.
+TEST_F(Searches, TheFirstCaseHasNoFaultsAndLaterCasesHaveLessMargin) {
+  // The number of faults in the last hundred cases. With sign 1 or -1, more faults give less or more margin.
   const auto faults_late = [&](double sign) {
     HuntSearch one = search(1);
     Outcomes outcomes;

@@ -1,4 +1,4 @@
-// Finds are minimised: faults that do not matter go, and those that matter stay, however many flights fly at once.
+// Shrinking removes the faults that do not matter from a find and keeps the others, however many flights fly at once.
 #include "cli/hunt/shrink.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class Shrinking : public testing::Test {
     towers_ = load_scenario("towers", load);
   }
 
-  /// A defect that needs raffles to be killed while the station is dead.
+  /// The defect: a trial fails if raffles is killed while the station is dead.
   static bool breaks(const Trial& trial) {
     for (const Fault& kill : trial.faults) {
       const auto* killed = std::get_if<Kill>(&kill.action);
@@ -57,7 +57,7 @@ class Shrinking : public testing::Test {
                     return outcomes;
                   });
   }
-  /// The defect among faults that do not matter.
+  /// A trial with the two faults that cause the defect, and with random faults that do not matter.
   Trial drawn(std::uint64_t number) const {
     const FaultMaker maker(towers_, {fault_kinds(), 77.0, false});
     RandomStream draw(5, "test", number);
@@ -74,7 +74,7 @@ class Shrinking : public testing::Test {
   Scenario towers_;
 };
 
-TEST_F(Shrinking, LeavesWhatMattersAndNothingElse) {
+TEST_F(Shrinking, LeavesOnlyTheFaultsThatMatter) {
   for (std::uint64_t number = 0; number < 30; ++number) {
     const Trial trial = drawn(number);
     ASSERT_TRUE(breaks(trial));
@@ -83,7 +83,7 @@ TEST_F(Shrinking, LeavesWhatMattersAndNothingElse) {
     EXPECT_EQ(small.trial.faults.size(), 2U) << small.trial.text();
     EXPECT_EQ(small.trial.run.seed, 0U);
     EXPECT_EQ(small.trial.run.planner, "planted");
-    EXPECT_LT(small.flights, kMostFlights) << "else shrinking takes too long";
+    EXPECT_LT(small.flights, kMostFlights) << "shrinking takes too many flights";
     EXPECT_EQ(small.trial.run.uavs, 2U);
     EXPECT_LT(*small.trial.run.duration_s, 120.0);
     for (const Fault& fault : small.trial.faults) {
@@ -116,7 +116,7 @@ TEST_F(Shrinking, LeavesTheConditionsThatItNeeds) {
   }
 }
 
-TEST_F(Shrinking, DoesNotDependOnHowManyFlyAtOnce) {
+TEST_F(Shrinking, DoesNotDependOnHowManyFlightsFlyAtOnce) {
   for (std::uint64_t number = 0; number < 20; ++number) {
     const std::size_t most = number % 2 == 0 ? 120 : number;
     const Shrunk one = shrunk(drawn(number), 1, most), four = shrunk(drawn(number), 4, most);

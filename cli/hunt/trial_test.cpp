@@ -40,7 +40,7 @@ TEST(StatesOfATrial, AFaultThatWaitedEndsWhenItEndedInTheFlight) {
     flown.set_off(begin);
     flown.for_s.reset();
     EXPECT_EQ(states_of(mission, scenario, {waited}, outcome), states_of(mission, scenario, {flown}, outcome))
-        << "it began at " << *outcome.began_s[0] << " s: " << fault_line(waited);
+        << "the fault began at " << *outcome.began_s[0] << " s: " << fault_line(waited);
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 class HostLinkFrames : public testing::Test {
  protected:
-  /// A host that says this at once, and then stays until the launcher leaves.
+  /// A host that sends these bytes at once, and keeps the connection open until the launcher closes it.
   PlacedHost host_that_says(const std::string& bytes) const {
     std::ofstream(said(), std::ios::binary) << kHostGreeting << '\n' << bytes;
     return {"there", {}, {"/bin/sh", "-c", "cat '" + said().string() + "'; exec cat >/dev/null"}};
@@ -26,7 +26,7 @@ class HostLinkFrames : public testing::Test {
 };
 
 // Frames that a host sends after an answer may arrive together with the answer or later. Both must work.
-TEST_F(HostLinkFrames, FramesThatComeAfterAnAnswerAreTaken) {
+TEST_F(HostLinkFrames, FramesThatFollowAnAnswerAreReceived) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 10; ++trial) {
     const std::size_t before = random() % 3, after = 1 + random() % 5;
@@ -40,7 +40,8 @@ TEST_F(HostLinkFrames, FramesThatComeAfterAnAnswerAreTaken) {
     HostLink link(host_that_says(bytes), log());
     EXPECT_EQ(link.answer("hello").text("build"), "b");
     std::vector<std::string> expected, taken;
-    for (std::size_t i = 0; i < after; i += 2) expected.push_back(std::to_string(i));  // "alive" is not news
+    for (std::size_t i = 0; i < after; i += 2)
+      expected.push_back(std::to_string(i));  // frames with "alive" are not passed on
     expected.emplace_back("last");
     ASSERT_TRUE(eventually([&] {
       for (const Frame& frame : link.take()) taken.push_back(frame.text("number"));
@@ -55,7 +56,7 @@ TEST_F(HostLinkFrames, AnErrorInsteadOfAnAnswerIsReported) {
   HostLink link(host_that_says(bytes_of({{"say", "trouble"}, {"text", "no room"}})), log());
   try {
     link.answer("hello");
-    ADD_FAILURE() << "it did not answer";
+    ADD_FAILURE() << "no error, although the host did not answer";
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()), "--place: there: no room");
   }

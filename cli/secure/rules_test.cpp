@@ -27,7 +27,7 @@ class SecurityRules : public testing::Test {
   const FakePrograms programs_;
 };
 
-TEST_F(SecurityRules, AnAgentIsInItsOwnDomainAndSpeaksForItself) {
+TEST_F(SecurityRules, AnAgentWritesOnlyInItsOwnDomainAndOnlyForItself) {
   const Rights rights = rights_of(plan(), "uav_agent-beta", 10);
   EXPECT_EQ(rights.first_domain, 13);
   EXPECT_EQ(rights.last_domain, 13);
@@ -42,7 +42,7 @@ TEST_F(SecurityRules, AnAgentIsInItsOwnDomainAndSpeaksForItself) {
   EXPECT_TRUE(may_publish(rights, "rt/some/radio_topic"));
 }
 
-TEST_F(SecurityRules, TheScoreIsTheStationsToTellAndItsIndicesAreNotForPlayers) {
+TEST_F(SecurityRules, OnlyTheStationWritesTheScoreAndNoPlayerReadsTheIndices) {
   const auto may_read = [](const Rights& rights, const std::string& topic) {
     return std::ranges::find(rights.not_read, topic) == rights.not_read.end();
   };
@@ -51,7 +51,7 @@ TEST_F(SecurityRules, TheScoreIsTheStationsToTellAndItsIndicesAreNotForPlayers) 
     EXPECT_FALSE(may_read(rights, topics::score_eval().name)) << program;
     EXPECT_TRUE(may_read(rights, topics::score().name)) << program;
     EXPECT_FALSE(may_publish(rights, topics::score().name)) << program;
-    // The first rule that fits decides, so this one must come before "everything".
+    // DDS Security applies the first rule that fits, so this rule must come before the one for "everything".
     const std::string text = permissions("CN=" + std::string(program), rights);
     const std::size_t denied = text.find("<deny_rule>"), allowed = text.find("<allow_rule>");
     ASSERT_LT(denied, allowed) << text;
@@ -64,7 +64,7 @@ TEST_F(SecurityRules, TheScoreIsTheStationsToTellAndItsIndicesAreNotForPlayers) 
   EXPECT_TRUE(may_publish(station, topics::score().name) && may_publish(station, topics::score_eval().name));
 }
 
-TEST_F(SecurityRules, OnlyTheServerSpeaksForTheServer) {
+TEST_F(SecurityRules, OnlyTheServerWritesTheServersTopics) {
   for (const char* program : {"comm_router", "station"}) {
     const Rights rights = rights_of(plan(), program, 10);
     for (const auto& topic : {topics::step(), topics::ledger(), topics::odometry("alpha"), topics::capture()}) {
@@ -74,7 +74,7 @@ TEST_F(SecurityRules, OnlyTheServerSpeaksForTheServer) {
   EXPECT_TRUE(rights_of(plan(), "sim_server", 10).not_published.empty());
   EXPECT_FALSE(may_publish(rights_of(plan(), "comm_router", 10), topics::trajectory_command("alpha").name));
   EXPECT_FALSE(may_publish(rights_of(plan(), "station", 10), topics::routed().name));
-  for (const char* program : {"comm_router", "station"}) {  // of a run that is watched
+  for (const char* program : {"comm_router", "station"}) {  // in a run that a viewer watches
     for (const auto& topic : {topics::view_story(), topics::view_state(), topics::view_cloud()}) {
       EXPECT_FALSE(may_publish(rights_of(plan(), program, 10), topic.name)) << program << ' ' << topic.name;
     }

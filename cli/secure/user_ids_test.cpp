@@ -24,7 +24,7 @@ class UserIdsTest : public ::testing::Test {
     return std::any_of(all.begin(), all.end(), [&](pid_t pid) { return belongs_to(pid, user); });
   }
 
-  /// A process of that user in a session of its own, and one that it has left behind. Returns once both run.
+  /// Starts a process of that user, which leaves another one behind in a session of its own. Returns once that one runs.
   static void leave_behind(uid_t user) {
     int ready[2];
     ASSERT_EQ(::pipe(ready), 0);
@@ -60,7 +60,7 @@ TEST_F(UserIdsTest, AreDifferentAndFree) {
   for (const uid_t user : all) EXPECT_FALSE(has_processes(user)) << user;
 }
 
-TEST_F(UserIdsTest, WithThemEndTheProcessesThatHaveThem) {
+TEST_F(UserIdsTest, EndAllProcessesOfTheirUsersInTheirDestructor) {
   uid_t user = 0;
   {
     const UserIds ids(1);
@@ -75,7 +75,7 @@ TEST_F(UserIdsTest, TheUserIdOfASurvivingProcessIsNotGivenAgain) {
   constexpr std::size_t kAll = kLastAgentUser - kFirstAgentUser + 1;
   leave_behind(kFirstAgentUser);
   EXPECT_THROW(UserIds ids(kAll), InputError);
-  EXPECT_TRUE(has_processes(kFirstAgentUser)) << "it was not ours to end";
+  EXPECT_TRUE(has_processes(kFirstAgentUser)) << "UserIds must not end a process that was there before";
   EXPECT_TRUE(end_processes_of(kFirstAgentUser));
   EXPECT_FALSE(has_processes(kFirstAgentUser));
 }

@@ -13,7 +13,7 @@ std::string printed(const Study& study) {
   return out.str();
 }
 
-TEST(ConditionsTable, ComparesMediansWithTheFirstConditionsAndCountsFalls) {
+TEST(ConditionsTable, ComparesMediansWithThoseOfTheFirstConditionsAndCountsFalls) {
   Study study;
   study.planners = {"kios", "star"};
   const auto add = [&](const std::string& conditions, std::size_t planner, double percent, int collisions, int falls) {
@@ -36,13 +36,13 @@ TEST(ConditionsTable, ComparesMediansWithTheFirstConditionsAndCountsFalls) {
   EXPECT_NE(text.find("| `none` | `kios` | 3 | 50.0 | 100 | 0 | 0 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| `harsh` | `kios` | 3 | 30.0 | 60 | 6 | 3 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| `harsh` | `star` | 1 | 10.0 | - | 1 | 0 |"), std::string::npos) << text;
-  // Of 600 points 430 are lost, 3 of them to batteries.
+  // Of 600 attainable points, 430 are lost, 3 of them to batteries.
   EXPECT_NE(text.find("| `harsh` | `kios` | - | 71.2 | - | - | - | - | - | - | - | - | 0.5 | - |"), std::string::npos)
       << text;
   EXPECT_NE(text.find("| `harsh` | `star` | - | - |"), std::string::npos) << text;
 }
 
-TEST(ConditionsTable, SplitsWhatIsTooPoorToCount) {
+TEST(ConditionsTable, SplitsTheScoreOfPicturesThatAreTooPoorToCount) {
   Study study;
   study.planners = {"kios"};
   study.scene_conditions = {"none"};
@@ -55,7 +55,7 @@ TEST(ConditionsTable, SplitsWhatIsTooPoorToCount) {
     study.flights.push_back(std::move(entry));
   };
   add(30.0, {{"distance", 0.0}, {"tilt", 10.0}, {"blur", 20.0}, {"unsplit", 0.0}});
-  add(8.0, {});  // kept by an earlier version
+  add(8.0, {});  // an earlier version kept no parts
   const std::string text = printed(study);
   EXPECT_NE(
       text.find("| too poor to count: from too far away | too poor to count: too much from the side | too poor to "

@@ -11,7 +11,7 @@
 namespace skein::cli {
 namespace {
 
-/// The last change at or before a time, looked for one by one.
+/// Reference implementation: the score at a time is that of the last change at or before it.
 double slow_score(const FlightTables& tables, double time_s) {
   double score = 0.0;
   for (const results::ScoreRow& change : tables.scores) {
@@ -46,13 +46,13 @@ TEST(ScoreCurves, AreMedianAndRangeOfTheFlightsAtEveryTime) {
   }
 }
 
-TEST(FlightTables, AreReadAsFarAsTheyAreThere) {
+TEST(FlightTables, AreReadAlsoIfSomeAreMissing) {
   const results::Scratch scratch;
   const auto dir = scratch.path();
-  EXPECT_TRUE(read_flight_tables(dir).scores.empty()) << "no result at all";
+  EXPECT_TRUE(read_flight_tables(dir).scores.empty()) << "the folder has no tables";
   write_text(dir / "result.json",
              R"({"status": "completed", "sim_time_s": 80, "uavs": [{"name": "a"}, {"name": "b"}]})");
-  EXPECT_TRUE(read_flight_tables(dir).latencies.empty()) << "nobody knows of captures";
+  EXPECT_TRUE(read_flight_tables(dir).latencies.empty()) << "there is no table of captures";
   write_text(dir / "score_timeline.csv", "time_s,points,score\n0,0,0\n10,1,2.5\n20,2,nonsense\n");
   write_text(dir / "captures.csv",
              "uav,capture,tick,time_s,point,q,delivered_at_s,reason\n"
@@ -63,7 +63,8 @@ TEST(FlightTables, AreReadAsFarAsTheyAreThere) {
   EXPECT_EQ(tables.score_at(10.0), 2.5);
   EXPECT_EQ(tables.score_at(79.0), 2.5);
   ASSERT_EQ(tables.latencies.size(), 2u);
-  EXPECT_EQ(tables.latencies[0].delays_s, std::vector<double>{2.0}) << "a capture counts once, whatever it shows";
+  EXPECT_EQ(tables.latencies[0].delays_s, std::vector<double>{2.0})
+      << "a capture counts once, however many points it shows";
   EXPECT_EQ(tables.latencies[0].never, 1u);
   EXPECT_EQ(tables.latencies[1].delays_s, std::vector<double>{0.5});
 }

@@ -25,7 +25,7 @@ StudyPictures drawn(const Study& study) {
   return pictures;
 }
 
-TEST(FigureFiles, StandAloneWhateverTheNames) {
+TEST(FigureFiles, AreCompleteSvgFilesWhateverTheNames) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 40; ++trial) {
     const Study study = odd_study(random, trial % 2 == 0);
@@ -41,7 +41,7 @@ TEST(FigureFiles, StandAloneWhateverTheNames) {
       for (const char* foreign : {"var(", "url(", "@import", "@font-face", "currentcolor", "href", "system-ui"}) {
         EXPECT_EQ(svg.find(foreign), std::string::npos) << foreign;
       }
-      EXPECT_NE(svg.find("fill=\"#ffffff\""), std::string::npos) << "on white";
+      EXPECT_NE(svg.find("fill=\"#ffffff\""), std::string::npos) << "the figure has a white background";
     }
   }
 }

@@ -1,4 +1,4 @@
-// Figures that are kept as JSON are the same afterwards, to the bit.
+// Figures that are written as JSON and read back are the same, bit for bit.
 #include "cli/study/figures_json.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace skein::cli {
 namespace {
 
-/// A result of which some keys are missing, by chance.
+/// A result without some random keys.
 Json drawn_result(RandomStream& draw) {
   Json result = {{"status", "completed"}, {"digest", "abc"}, {"collisions", Json::array()}};
   const auto maybe = [&](Json& object, const char* key, double value) {
@@ -47,7 +47,7 @@ Json drawn_result(RandomStream& draw) {
   return result;
 }
 
-TEST(FiguresJson, AreTheSameAfterwards) {
+TEST(FiguresJson, AreTheSameWhenReadBack) {
   RandomStream draw(1, "figures", 0);
   for (int i = 0; i < 200; ++i) {
     const FlightFigures figures = figures_of(drawn_result(draw));

@@ -23,7 +23,7 @@ Json a_result() {
       {"role": "photographer", "idle_s": 50, "distance_m": null, "planner_cpu_s": null}]})");
 }
 
-TEST(StudyFigures, OfAResult) {
+TEST(StudyFigures, AreReadFromAResult) {
   const FlightFigures figures = figures_of(a_result());
   EXPECT_EQ(figures.score, 600.0);
   EXPECT_EQ(figures.attainable_percent, 50.0);
@@ -32,7 +32,7 @@ TEST(StudyFigures, OfAResult) {
   EXPECT_EQ(figures.idle_explorers_s, 10.0);
   EXPECT_EQ(figures.idle_photographers_s, 35.0);
   EXPECT_EQ(figures.distance_m, 300.0);
-  EXPECT_NEAR(*figures.planner_cpu_ms, 30.0, 1e-9) << "6 s a UAV in 200 s";
+  EXPECT_NEAR(*figures.planner_cpu_ms, 30.0, 1e-9) << "each UAV's planner needs 6 s in 200 s";
   EXPECT_EQ(figures.braking_hits, 3.0);
   EXPECT_EQ(figures.braking_meets, 0.0);
   EXPECT_EQ(figures.ways_meet, 4.0);
@@ -49,7 +49,7 @@ TEST(StudyFigures, WorkAndWaitingAreSummedUp) {
   result["uavs"][0]["waited_s"] = 12.5;
   result["uavs"][1]["waited_s"] = nullptr;
   const FlightFigures figures = figures_of(result);
-  EXPECT_EQ(figures.frozen_uavs, 2) << "waiting, whenever it was, excuses no frozen time";
+  EXPECT_EQ(figures.frozen_uavs, 2) << "time spent waiting is not subtracted from frozen time";
   EXPECT_EQ(figures.frozen_s, 200.0);
   EXPECT_EQ(figures.waiting_uavs, 2);
   EXPECT_EQ(figures.waited_s, 12.5);
@@ -57,8 +57,8 @@ TEST(StudyFigures, WorkAndWaitingAreSummedUp) {
   EXPECT_FALSE(figures_of(a_result()).frozen_s);
 }
 
-/// Flights that failed, that are missing, and that are there twice, in any order.
-TEST(StudyFigures, OfFlightsThatAreFoundAreThoseOfAllThatAreLookedAt) {
+/// Some flights failed, some are missing, some are there twice, and their order is random.
+TEST(StudyFigures, OfIndexedFlightsEqualThoseOfASearchOverAllFlights) {
   std::mt19937 random(21);
   for (int trial = 0; trial < 100; ++trial) {
     Study study = odd_study(random, false);
@@ -108,10 +108,10 @@ TEST(StudyFigures, AFigureThatWasNotReportedHasNoValue) {
   EXPECT_NO_THROW(figures_of(Json()));
 }
 
-/// The definition by words: the place (n - 1) * share in the sorted sample, linearly between two values.
+/// Reference implementation: the value at place (n - 1) * share of the sorted sample, linear between two values.
 double slow_quantile(std::vector<double> values, int quarter) {
   std::sort(values.begin(), values.end());
-  std::vector<double> fine;  // four steps between neighbours
+  std::vector<double> fine;  // the sample, with four steps between neighbours
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     for (int k = 0; k < 4; ++k) fine.push_back(values[i] + (values[i + 1] - values[i]) * k / 4.0);
   }
@@ -141,7 +141,7 @@ FlightEntry flight(std::size_t planner, std::size_t scenario, std::uint64_t seed
   return entry;
 }
 
-/// Two scenes, three tests: totals of a 10, 20, 90; of b 40, 40, 40; c did not finish a test.
+/// Two scenes and three tests. The totals of planner a are 10, 20, 90, those of b 40, 40, 40; c did not finish a test.
 Study three_planners() {
   Study study{true, Rank::maximum, {"a", "b", "c,\"x\""}, {"s", "t"}, {1, 2, 3}, {}, "", "", "", "", 1};
   for (const std::uint64_t seed : study.seeds) {
@@ -172,10 +172,10 @@ TEST(StudyFigures, RanksByMaximumMedianOrWorst) {
   EXPECT_EQ(order(study), "bac");
   study.rank = Rank::worst;
   EXPECT_EQ(order(study), "bac");
-  EXPECT_FALSE(standings(study).back().decides) << "without a complete test nobody is ranked";
+  EXPECT_FALSE(standings(study).back().decides) << "a planner without a complete test is not ranked";
 }
 
-TEST(StudyFigures, EqualsShareAPlace) {
+TEST(StudyFigures, PlannersWithEqualTotalsShareAPlace) {
   Study study{true, Rank::maximum, {"a", "b", "c"}, {"s"}, {1}, {}, "", "", "", "", 1};
   study.flights = {flight(0, 0, 1, 5.0), flight(1, 0, 1, 7.0), flight(2, 0, 1, 7.0)};
   const auto all = standings(study);
@@ -188,7 +188,7 @@ TEST(StudyFigures, EqualsShareAPlace) {
 TEST(StudyFigures, TheBestFlightIsTheOneWithTheHighestScore) {
   const Study study = three_planners();
   EXPECT_EQ(study.best(0, 0)->seed, 3u);
-  EXPECT_EQ(study.best(1, 0)->seed, 1u) << "the first of equals";
+  EXPECT_EQ(study.best(1, 0)->seed, 1u) << "the first of the flights with the same score";
   EXPECT_EQ(study.best(2, 1), nullptr);
 }
 

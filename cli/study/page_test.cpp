@@ -61,7 +61,7 @@ std::string page_of(const Study& study, bool pictures = true) {
   return study_page(StudyReport(study, pictures ? pictures_of(study) : StudyPictures{}));
 }
 
-/// The texts of a table's cells, row by row, without the head; of all tables that are called so, one after the other.
+/// The texts of the cells of all tables with this name, row by row, without their heads.
 std::vector<std::vector<std::string>> rows_of(const std::string& page, const std::string& table) {
   pugi::xml_document document;
   document.load_buffer(page.data(), page.size());
@@ -87,7 +87,7 @@ TEST(StudyPage, IsWellFormedWhateverTheNames) {
   }
 }
 
-TEST(StudyPage, AsksForNothingFromElsewhereAndLinksStayInItsFolder) {
+TEST(StudyPage, LoadsNothingFromElsewhereAndLinksOnlyIntoItsFolder) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 16; ++trial) {
     const Study study = odd_study(random, true);
@@ -120,7 +120,8 @@ TEST(StudyPage, LinksToThePageOfEveryFlightThatHasOne) {
     for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
       for (std::size_t p = 0; p < study.planners.size(); ++p) {
         const FlightEntry* best = study.best(p, s);
-        if (best != nullptr && !best->page.empty()) wanted.insert(best->page);  // its drawing
+        if (best != nullptr && !best->page.empty())
+          wanted.insert(best->page);  // a drawing shows the best flight, and links to its page, too
       }
     }
     for (const XmlElement& element : xml_elements(page_of(study))) {
@@ -131,7 +132,7 @@ TEST(StudyPage, LinksToThePageOfEveryFlightThatHasOne) {
   }
 }
 
-TEST(StudyPage, TablesSayWhatTheFlightsSay) {
+TEST(StudyPage, TablesHaveTheFiguresOfTheFlights) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 16; ++trial) {
     const Study study = odd_study(random, trial % 2 == 0);
@@ -177,8 +178,9 @@ TEST(StudyPage, TablesSayWhatTheFlightsSay) {
   }
 }
 
-/// In each scene's table all planners with the best median, and no other; the first UAV of a planner begins a group.
-TEST(StudyPage, TheBestIsMarkedAndPlannersAreApart) {
+/// In the table of a scene, exactly the planners with the best median are marked. The first UAV of a planner begins a
+/// group of rows.
+TEST(StudyPage, TablesMarkTheBestPlannersAndGroupRowsByPlanner) {
   std::mt19937 random(7);
   std::size_t marked = 0, groups = 0;
   for (int trial = 0; trial < 16; ++trial) {
@@ -219,7 +221,7 @@ TEST(StudyPage, TheBestIsMarkedAndPlannersAreApart) {
   EXPECT_GT(groups, 0u);
 }
 
-TEST(StudyPage, RowsOfUavsAndPairsSayWhatTheFlightsSay) {
+TEST(StudyPage, RowsOfUavsAndPairsHaveTheFiguresOfTheFlights) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 16; ++trial) {
     const Study study = odd_study(random, false);
@@ -263,7 +265,7 @@ TEST(StudyPage, RowsOfUavsAndPairsSayWhatTheFlightsSay) {
   }
 }
 
-/// Texts of the ticks of each panel of one kind.
+/// The axes of all panels of one kind, each as the texts of its ticks.
 std::set<std::string> axes_of(const StudyReport& report, FigureKind kind, const std::string& style) {
   std::set<std::string> axes;
   const std::regex tick("<text class=\"" + style + "\" x=\"([0-9.]+)\" y=\"[0-9.]+\">([-0-9.]+)</text>");
@@ -307,7 +309,7 @@ TEST(StudyPage, ScenesAreCalledByTheirNames) {
   EXPECT_NE(page_of(a_study(false)).find("<h2>x&lt;y&gt;</h2>"), std::string::npos);
 }
 
-TEST(StudyPage, SaysWhichPlannerIsAheadAndHowToMakeItAgain) {
+TEST(StudyPage, NamesTheLeadingPlannerAndTheCommandThatRepeatsTheStudy) {
   const Study study = a_study(true);
   const std::string page = page_of(study);
   for (const char* words :
@@ -319,8 +321,9 @@ TEST(StudyPage, SaysWhichPlannerIsAheadAndHowToMakeItAgain) {
   EXPECT_EQ(page_of(a_study(false)).find("Ranking"), std::string::npos);
 }
 
-// Scenes differ in size: sums must not rank a planner low that has most of a small one and less of a large one.
-TEST(StudyPage, OverAllScenesAComparisonGoesByShares) {
+// Scenes differ in size. A sum of scores would hide that a planner is much better in a small scene, if it is a little
+// worse in a large one.
+TEST(StudyPage, AComparisonOverAllScenesUsesSharesOfTheScores) {
   const auto page_with = [](bool contest, bool known) {
     Study study = a_study(contest);
     study.flights = {};
@@ -356,7 +359,7 @@ TEST(StudyPage, OverAllScenesAComparisonGoesByShares) {
   EXPECT_TRUE(leads(page_with(true, true), "median total 710.0")) << "a contest goes by totals, as its rules say";
 }
 
-TEST(StudyPage, IsTheSameTwice) {
+TEST(StudyPage, IsTheSameForTheSameStudy) {
   const Study study = a_study(true);
   EXPECT_EQ(page_of(study), page_of(study));
 }

@@ -18,7 +18,7 @@ TEST(PlannerPairs, AreTheDifferencesOfTheFlights) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 60; ++trial) {
     const Study study = odd_study(random, trial % 2 == 0);
-    // By planner, scene and seed, straight from the flights.
+    // The scores of the flights, keyed by planner, scene and seed.
     std::map<std::tuple<std::size_t, std::size_t, std::uint64_t>, double> scores;
     for (const FlightEntry& flight : study.flights) {
       if (flight.figures) scores[{flight.planner, flight.scenario, flight.seed}] = flight.figures->score;
@@ -46,7 +46,8 @@ TEST(PlannerPairs, AreTheDifferencesOfTheFlights) {
       }
       ASSERT_EQ(found, pair.differences.size());
       ASSERT_EQ(pair.median.has_value(), found > 0);
-      ASSERT_EQ(pair.interval.has_value(), found >= kFewestPairs) << "n too small";
+      ASSERT_EQ(pair.interval.has_value(), found >= kFewestPairs)
+          << "too few pairs have no interval, and all others have one";
       ASSERT_EQ(pair.test.has_value(), found >= kFewestPairs);
       if (pair.interval) {
         ASSERT_LE(pair.interval->low, *pair.median);
@@ -86,7 +87,7 @@ TEST(PlannerPairs, TheTerminalShowsWhetherADifferenceIsSignificant) {
   EXPECT_NE(few.find("with 3 seeds, no difference can be significant"), std::string::npos) << few;
 }
 
-TEST(PlannerPairs, AreATableForPrograms) {
+TEST(PlannerPairs, AreWrittenAsACsvTable) {
   Study study{false, Rank::maximum, {"a", "b,\"x\""}, {"s", "t"}, {0, 1, 2, 3, 4, 5}, {}, "", "", "", "", 1};
   for (const std::uint64_t seed : study.seeds) {
     for (const std::size_t scenario : {0, 1}) {
@@ -105,7 +106,7 @@ TEST(PlannerPairs, AreATableForPrograms) {
                                          fmt::format("score,t,{0},2,1.5,,,,\nscore,,{0},2,3,,,,\n", two));
 }
 
-/// Two planners of the same median, one of them with twice the spread.
+/// Two planners have the same median, and one of them has twice the spread of the other.
 TEST(PlannerPairs, CompareOtherFiguresAndTheSpreadOfScores) {
   Study study{false, Rank::maximum, {"a", "b"}, {"s"}, {0, 1, 2, 3, 4, 5, 6}, {}, "", "", "", "", 1};
   for (const std::uint64_t seed : study.seeds) {
@@ -124,10 +125,10 @@ TEST(PlannerPairs, CompareOtherFiguresAndTheSpreadOfScores) {
   EXPECT_NEAR(pairs.at(kDeviation).test->p, 0.03125, 1e-9);
   EXPECT_NEAR(*pairs.at("greatest_share").median, 5.0, 1e-9);
   EXPECT_NEAR(*pairs.at("score").median, 0.0, 1e-9);
-  EXPECT_FALSE(pairs.at("mean_quality").median) << "nobody told";
+  EXPECT_FALSE(pairs.at("mean_quality").median) << "no flight has this figure";
 }
 
-TEST(PlannerPairs, SayHowLikelyInFewDigits) {
+TEST(PlannerPairs, ShowPWithFewDigits) {
   EXPECT_EQ(p_text(std::nullopt), "");
   EXPECT_EQ(p_text(0.0004), "< 0.001");
   EXPECT_EQ(p_text(0.0625), "0.0625");

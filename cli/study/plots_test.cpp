@@ -27,7 +27,7 @@ std::vector<XmlElement> of_class(const std::vector<XmlElement>& elements, const 
   return found;
 }
 
-/// Rows of values between round ends.
+/// A random plot with rows of values, some of them without any, whose axis ends at round numbers.
 DotPlot odd_plot(std::mt19937& random) {
   DotPlot plot{"trial", "score", {}, {}, random() % 3 > 0};
   const double offset = static_cast<double>(random() % 3000) - 500.0, size = 1.0 + static_cast<double>(random() % 2000);
@@ -43,7 +43,7 @@ DotPlot odd_plot(std::mt19937& random) {
   return plot;
 }
 
-TEST(DotPlot, EverythingIsWithinTheAxis) {
+TEST(DotPlot, EveryMarkIsWithinTheAxis) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 300; ++trial) {
     const auto elements = xml_elements(dot_plot_svg(odd_plot(random)));
@@ -110,10 +110,10 @@ TEST(DotPlot, TextsAreEscapedAndARowMayBeEmpty) {
   const std::string svg = dot_plot_svg(plot);
   EXPECT_EQ(of_class(xml_elements(svg), "zero").size(), 1u);
   EXPECT_NE(svg.find("no flight"), std::string::npos);
-  EXPECT_NE(svg.find("dot c2"), std::string::npos) << "colours repeat";
+  EXPECT_NE(svg.find("dot c2"), std::string::npos) << "the colours repeat after the last one";
 }
 
-/// The points of a path of "M1 2 3 4 ...".
+/// The points of an SVG path like "M1 2 3 4 ...".
 std::vector<std::pair<double, double>> points_of(std::string data) {
   std::ranges::replace_if(
       data, [](char c) { return c == 'M' || c == 'Z'; }, ' ');
@@ -123,7 +123,7 @@ std::vector<std::pair<double, double>> points_of(std::string data) {
   return points;
 }
 
-TEST(CurvePlot, MediansAreWithinTheirBandsAndAllWithinTheAxes) {
+TEST(CurvePlot, MediansAreWithinTheirBandsAndBothWithinTheAxes) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 100; ++trial) {
     CurvePlot plot{
@@ -144,7 +144,7 @@ TEST(CurvePlot, MediansAreWithinTheirBandsAndAllWithinTheAxes) {
     auto curves = of_class(elements, "curve");
     const auto bands = of_class(elements, "band");
     ASSERT_EQ(bands.size(), plot.curves.size());
-    ASSERT_EQ(curves.size(), 2 * plot.curves.size()) << "and one in the legend";
+    ASSERT_EQ(curves.size(), 2 * plot.curves.size()) << "each curve has a line in the plot and one in the legend";
     curves.erase(curves.begin(), curves.begin() + static_cast<std::ptrdiff_t>(plot.curves.size()));
     for (std::size_t i = 0; i < bands.size(); ++i) {
       const auto line = points_of(curves[i].attributes.at("d")), band = points_of(bands[i].attributes.at("d"));

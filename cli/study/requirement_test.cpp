@@ -34,7 +34,7 @@ TEST(Requirement, MayJoinSeveralFigures) {
   EXPECT_EQ(parse_requirement("collisions==0").seen(figures(5.0, 2)), "2");
 }
 
-TEST(Requirement, IsNotKeptByAFlightWithoutTheFigure) {
+TEST(Requirement, IsNotMetByAFlightWithoutTheFigure) {
   EXPECT_FALSE(parse_requirement("collisions==0").holds(std::nullopt));
   EXPECT_FALSE(parse_requirement("frozen_uavs==0").holds(figures(5.0, 0)));
 }

@@ -35,7 +35,7 @@ TEST(StudySpec, InvalidListsOfPlannersAreRefused) {
   }
 }
 
-TEST(StudySpec, JoinedAgainAListIsTheSame) {
+TEST(StudySpec, AListThatIsJoinedReadsBackTheSame) {
   for (const std::string list : {"a", "a,b", "a:x=1,y=2,b", "a:f.yaml,b:x=1,y=2,z=3,c"}) {
     std::string joined;
     for (const std::string& planner : split_planners(list)) joined += (joined.empty() ? "" : ",") + planner;
@@ -43,7 +43,7 @@ TEST(StudySpec, JoinedAgainAListIsTheSame) {
   }
 }
 
-TEST(StudySpec, SeedsAreAListAndANumberIsOneOfThem) {
+TEST(StudySpec, SeedsAreAListOfNumbersAndRanges) {
   for (const std::uint64_t seed : {0ULL, 1ULL, 3ULL, 1001ULL, 123456789012ULL}) {
     EXPECT_EQ(parse_seeds(std::to_string(seed)), Seeds{seed});
   }
@@ -54,7 +54,7 @@ TEST(StudySpec, SeedsAreAListAndANumberIsOneOfThem) {
   EXPECT_EQ(parse_seeds("7-7"), Seeds{7});
   EXPECT_EQ(parse_seeds("0,4-6"), (Seeds{0, 4, 5, 6}));
   EXPECT_EQ(parse_seeds("0-999").size(), 1000u);
-  EXPECT_EQ(parse_seeds("18446744073709551615"), Seeds{18446744073709551615U}) << "as for --seed";
+  EXPECT_EQ(parse_seeds("18446744073709551615"), Seeds{18446744073709551615U}) << "the greatest seed";
   EXPECT_EQ(parse_seeds("18446744073709551613-18446744073709551615").size(), 3u);
 }
 
@@ -66,7 +66,7 @@ TEST(StudySpec, InvalidSeedsAreRefused) {
 }
 
 // `--seed 010` is refused, too: many programs read it as 8.
-TEST(StudySpec, SeedsHaveNoZerosBeforeThem) {
+TEST(StudySpec, SeedsWithLeadingZerosAreRefused) {
   for (const std::string text : {"010", "00", "1,02", "01-3", "1-03", "0,1,2-010"}) {
     for (const std::string option : {"--seeds", "--scene-seeds"}) {
       try {
@@ -82,12 +82,12 @@ TEST(StudySpec, SeedsHaveNoZerosBeforeThem) {
   }
 }
 
-TEST(StudySpec, AgentsGoWithTheirPlanners) {
+TEST(StudySpec, EachPlannerKeepsItsAgent) {
   EXPECT_EQ(split_planners("kios@a/b,kios:x=1,y=2@c=d,kios"), (Texts{"kios@a/b", "kios:x=1,y=2@c=d", "kios"}));
   EXPECT_THROW(split_planners("kios@a,x=1"), InputError);
 }
 
-TEST(StudySpec, AgentsAreCalledByAsLittleOfTheirPathsAsTellsThem) {
+TEST(StudySpec, LabelsHaveAsMuchOfTheAgentsPathsAsDistinguishesThem) {
   EXPECT_EQ(planner_labels({"kios", "kios@x/a", "kios@x/b", "star@x/a"}),
             (Texts{"kios", "kios@a", "kios@b", "star@a"}));
   EXPECT_EQ(planner_labels({"kios@a/build/it", "star:x=1@b/build/it", "kios@b/install/it", "star@c/one"}),
@@ -95,7 +95,8 @@ TEST(StudySpec, AgentsAreCalledByAsLittleOfTheirPathsAsTellsThem) {
   EXPECT_EQ(planner_labels({"kios@/it", "kios@/a/it"}), (Texts{"kios@/it", "kios@a/it"}));
   EXPECT_EQ(planner_labels({"a=kios@a/it,b=kios@b/it", "exec:x @a/b"}),
             (Texts{"a=kios@a/it,b=kios@b/it", "exec:x @a/b"}));
-  EXPECT_EQ(planner_labels({"kios@/a", "kios@/b/../a", "kios"}), (Texts{"kios@a", "kios@a", "kios"})) << "the same";
+  EXPECT_EQ(planner_labels({"kios@/a", "kios@/b/../a", "kios"}), (Texts{"kios@a", "kios@a", "kios"}))
+      << "both paths name the same program";
 }
 
 TEST(StudySpec, FoldersAreDistinctAndSafe) {

@@ -10,7 +10,7 @@
 namespace skein::cli {
 namespace {
 
-/// The definition by words: all ways to deal signs, one after the other.
+/// Reference implementation: enumerates all ways to give the differences signs.
 double slow_p(const std::vector<double>& differences) {
   std::vector<double> sizes;
   std::vector<bool> positive;
@@ -20,7 +20,7 @@ double slow_p(const std::vector<double>& differences) {
     positive.push_back(d > 0.0);
   }
   if (sizes.empty()) return 1.0;
-  const auto rank_of = [&](double size) {  // mean of the places that equal ones take
+  const auto rank_of = [&](double size) {  // equal sizes share the mean of their ranks
     const auto below = std::ranges::count_if(sizes, [&](double other) { return other < size; });
     return static_cast<double>(below) + 0.5 * static_cast<double>(std::ranges::count(sizes, size) + 1);
   };
@@ -39,7 +39,7 @@ double slow_p(const std::vector<double>& differences) {
   return static_cast<double>(as_uneven) / static_cast<double>(std::size_t{1} << sizes.size());
 }
 
-TEST(SignedRankTest, AgreesWithAllWaysToDealSigns) {
+TEST(SignedRankTest, AgreesWithTheEnumerationOfAllSigns) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<double> differences(random() % 11);
@@ -52,14 +52,14 @@ TEST(SignedRankTest, AgreesWithAllWaysToDealSigns) {
   }
 }
 
-// Critical sums of the smaller ranks, both sides, as printed tables have them (McCornack, JASA 60, 1965, 864-871):
-// for n = 6, 7, 8, 9, 10 the greatest with p <= 0.05 are 0, 2, 3, 5, 8; for n = 5 there is none.
+// Critical values of the smaller rank sum, two-sided, from printed tables (McCornack, JASA 60, 1965, 864-871): for
+// n = 6, 7, 8, 9, 10, the greatest sums with p <= 0.05 are 0, 2, 3, 5, 8; for n = 5, there is none.
 TEST(SignedRankTest, HasTheCriticalValuesOfPrintedTables) {
   const std::map<int, int> critical = {{5, -1}, {6, 0}, {7, 2}, {8, 3}, {9, 5}, {10, 8}};
   for (const auto& [n, most] : critical) {
     int greatest = -1;
     for (int smaller = 0; smaller <= n * (n + 1) / 4; ++smaller) {
-      std::vector<double> differences;  // negative ranks that sum to `smaller`, from the greatest on
+      std::vector<double> differences;  // their negative ranks, chosen from the greatest on, sum to `smaller`
       int left = smaller;
       for (int rank = n; rank > 0; --rank) {
         const bool negative = rank <= left;
@@ -72,12 +72,12 @@ TEST(SignedRankTest, HasTheCriticalValuesOfPrintedTables) {
   }
 }
 
-TEST(SignedRankTest, ManyPairsGoByTheNormalApproximationCloseToTheExactOne) {
+TEST(SignedRankTest, TheNormalApproximationForManyPairsIsCloseToTheExactValue) {
   std::mt19937 random(7);
   std::vector<double> differences;
   for (int i = 0; i < 100; ++i) differences.push_back(static_cast<double>(random() % 1000) - 440.0);
   const SignedRank exact = signed_rank_test(differences);
-  differences.push_back(1e-3);  // the least of all: hardly any weight
+  differences.push_back(1e-3);  // the smallest difference has hardly any weight
   const SignedRank normal = signed_rank_test(differences);
   EXPECT_TRUE(exact.exact);
   EXPECT_FALSE(normal.exact);
@@ -99,11 +99,11 @@ TEST(MedianInterval, IsTheSameInAnyOrderAndWithinTheValues) {
     ASSERT_EQ(interval.low, again.low);
     ASSERT_EQ(interval.high, again.high);
     for (double& value : values) value += 5.0;
-    ASSERT_DOUBLE_EQ(median_interval(values).low, interval.low + 5.0) << "it moves with the values";
+    ASSERT_DOUBLE_EQ(median_interval(values).low, interval.low + 5.0) << "the interval moves with the values";
   }
 }
 
-/// The same by its definition: every sample that can be drawn, one after the other.
+/// Reference implementation: enumerates every sample that can be drawn from the values.
 Interval slow_interval(const std::vector<double>& values) {
   const std::size_t n = values.size();
   std::vector<double> medians;
@@ -122,7 +122,7 @@ Interval slow_interval(const std::vector<double>& values) {
   return {medians[below - 1], medians[medians.size() - below]};
 }
 
-TEST(MedianInterval, IsThatOfAllSamples) {
+TEST(MedianInterval, AgreesWithTheEnumerationOfAllSamples) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<double> values(1 + random() % 7);
@@ -136,7 +136,7 @@ TEST(MedianInterval, IsThatOfAllSamples) {
 
 /// With too many values to enumerate all samples, 10 000 random samples stand for them: the true 2.5 % quantile lies
 /// between their 1.6 % and 3.4 % quantiles.
-TEST(MedianInterval, OfManyValuesIsThatOfDrawnSamples) {
+TEST(MedianInterval, OfManyValuesAgreesWithRandomSamples) {
   std::mt19937 random(13);
   for (const std::size_t n : {40, 101, 500}) {
     std::vector<double> values(n), sample(n), medians(10'000);
@@ -155,8 +155,9 @@ TEST(MedianInterval, OfManyValuesIsThatOfDrawnSamples) {
   }
 }
 
-// The median of a sample of an odd n is at most the k-th value when more than half of the draws are: a binomial.
-TEST(MedianInterval, EndsWhereTheBinomialSaysForAnOddNumber) {
+// For an odd n, the median of a sample is at most the k-th value if more than half of the draws are. The number of such
+// draws has a binomial distribution.
+TEST(MedianInterval, OfAnOddNumberOfValuesEndsAtTheQuantilesOfTheBinomial) {
   for (const int n : {5, 9, 15, 101}) {
     std::vector<double> values;
     for (int k = 1; k <= n; ++k) values.push_back(k);
@@ -177,8 +178,8 @@ TEST(MedianInterval, EndsWhereTheBinomialSaysForAnOddNumber) {
   }
 }
 
-/// By hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 would be 0.06 again, 0.5.
-TEST(Holm, MultipliesTheSmallestMostAndNeverTurnsTheOrder) {
+/// Computed by hand: 0.01 * 4 = 0.04, 0.02 * 3 = 0.06, 0.03 * 2 = 0.06, and 0.5.
+TEST(Holm, MultipliesTheSmallestMostAndKeepsTheOrder) {
   const std::vector<double> corrected = holm({0.03, 0.5, 0.01, 0.02});
   const std::vector<double> expected = {0.06, 0.5, 0.04, 0.06};
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(corrected[i], expected[i], 1e-12);

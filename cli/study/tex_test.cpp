@@ -38,7 +38,7 @@ std::string printed(std::string tex) {
   return tex;
 }
 
-/// Signs that mean something to TeX, unless a backslash or braces stand before.
+/// Whether the text has a character with a meaning in TeX that is not escaped.
 bool has_bare_sign(const std::string& tex) {
   for (std::size_t i = 0; i < tex.size(); ++i) {
     if (tex[i] == '\\') {
@@ -63,7 +63,7 @@ int depth_of(const std::string& tex) {
   return least < 0 ? least : depth;
 }
 
-TEST(Tex, EverySignIsPrintedAndNoneActs) {
+TEST(Tex, EveryCharacterIsPrintedAndNoneIsACommand) {
   std::mt19937 random(6);
   for (int trial = 0; trial < 3000; ++trial) {
     std::string text(random() % 12, ' ');
@@ -82,7 +82,7 @@ TEST(Tex, AnInvalidCharacterBecomesAQuestionMark) {
   EXPECT_EQ(tex_escaped("--gains"), "{-}{-}gains");
 }
 
-TEST(Tex, TablesHaveARowForEachAndAsManyCellsAsColumns) {
+TEST(Tex, TablesHaveARowForEachEntryAndACellForEachColumn) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 40; ++trial) {
     const Study study = odd_study(random, trial % 2 == 0);

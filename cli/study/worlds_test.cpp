@@ -35,7 +35,7 @@ class Worlds : public testing::Test {
   Study study_;
 };
 
-TEST_F(Worlds, WorstAreFailuresThenCollisionsThenFrozenThenLeastShares) {
+TEST_F(Worlds, TheWorstFlightsFailedThenCollidedThenFrozeThenHadTheLeastShare) {
   add(0, 80.0);
   add(0, 3.0);
   add(0, 50.0, 0, 1);
@@ -49,7 +49,7 @@ TEST_F(Worlds, WorstAreFailuresThenCollisionsThenFrozenThenLeastShares) {
   EXPECT_EQ(worst[3], &study_.flights[1]);
 }
 
-TEST_F(Worlds, EveryDrawnStudyIsSortedAndTellsTheCommandsOfTheTenWorst) {
+TEST_F(Worlds, FlightsAreSortedAndTheCommandsOfTheTenWorstArePrinted) {
   RandomStream random(1, "worlds_test", 0);
   for (int i = 0; i < 60; ++i) {
     add(random.uniform() < 0.5 ? 0 : 1, random.uniform(0.0, 100.0), random.uniform() < 0.1 ? 1 : 0,

@@ -69,7 +69,7 @@ class Sweep {
     for (const auto& [index, its] : all) {
       ASSERT_EQ(its.size(), 1U) << "flight " << index << " counts more than once";
       ASSERT_EQ(its[0].problem, world.fails(index) ? kMadeUpProblem : "") << index;
-      ASSERT_EQ(its[0].figures["digest"], world.digest(index)) << "flown by " << its[0].node;
+      ASSERT_EQ(its[0].figures["digest"], world.digest(index)) << "flown by node " << its[0].node;
       const SweepFlight flight = world.flight(index);
       const Json mark = read_json(flight.dir / kFlightMark);
       ASSERT_EQ(value_or(mark, "command", nullptr), flight.made_under) << index;
@@ -98,7 +98,7 @@ std::vector<MadeUpNode> drawn_nodes(RandomStream& draw) {
   return nodes;
 }
 
-TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
+TEST(SweepController, LosesAndDoublesNoFlightInRandomOrders) {
   // Each order starts many threads and writes many small files, so at each commit a tenth of them runs (SKEIN_TURN).
   std::size_t orders = 0, killed = 0, failing = 0;
   for (std::uint64_t order = 1; order <= 2000; ++order) {
@@ -126,7 +126,7 @@ TEST(SweepController, LosesAndDoublesNothingInDrawnOrders) {
   EXPECT_GT(failing, orders / 10);
 }
 
-TEST(SweepController, AUserWhoOnlyLooksIsToldHowManyChecksDiffer) {
+TEST(SweepController, TheStatusTellsHowManyChecksDiffer) {
   Sweep sweep(1, 12, 2, {{"sound 1"}, {"sound 2"}});
   ASSERT_TRUE(sweep.control());
   SweepFolder folder(sweep.world.study());
@@ -136,7 +136,7 @@ TEST(SweepController, AUserWhoOnlyLooksIsToldHowManyChecksDiffer) {
   controller.look();
   const std::string before = controller.findings().back(), nodes = before.substr(0, before.find("; ") + 2);
   EXPECT_EQ(before, nodes + "1 flight flown again elsewhere, each with the same digest");
-  // As a worker leaves them, before a controller judges them.
+  // The checks are now as a worker leaves them, before a controller judges them.
   for (const std::size_t index : folder.checks(token)) folder.forget_check(token, index);
   EXPECT_EQ(controller.findings().back(), nodes + "no flight was flown again on a second node");
   folder.write_check(token, {0, "sound 2", "a", "sound 1", "a"});
@@ -160,7 +160,7 @@ TEST(SweepController, ACheckGoesToAnotherNodeAtOnce) {
     sweep.expect_all(12);
     const SweepFolder folder = sweep.world.folder();
     EXPECT_EQ(folder.checks(folder.settings().value().token).size(), 1U);
-    const std::size_t elsewhere = folder.nodes().size() == 2 ? 1 : 0;  // else this machine flies it again
+    const std::size_t elsewhere = folder.nodes().size() == 2 ? 1 : 0;  // 0: this machine flies the check
     const std::size_t rounds = sweep.engine.rounds - 1;
     EXPECT_LE(rounds, elsewhere) << sweep.said.str();
     if (sweep.engine.asks_for_more) {
@@ -169,7 +169,7 @@ TEST(SweepController, ACheckGoesToAnotherNodeAtOnce) {
       EXPECT_EQ(rounds, elsewhere) << sweep.said.str();
     }
   }
-  EXPECT_GT(meanwhile, 5U) << "while the last units fly, an idle slot flies the check";
+  EXPECT_GT(meanwhile, 5U) << "an idle slot must fly the check while the last units fly";
 }
 
 // The node that flew a flight first must not fly its check, and all other nodes have died. The engine says so once, and
@@ -185,13 +185,13 @@ TEST(SweepController, ACheckForWhichNoNodeIsLeftIsFlownHere) {
     sweep.expect_all(12);
     const SweepFolder folder = sweep.world.folder();
     EXPECT_EQ(folder.checks(folder.settings().value().token).size(), 1U);
-    EXPECT_LE(sweep.engine.rounds, 2U) << "asking again would wait again: " << sweep.said.str();
+    EXPECT_LE(sweep.engine.rounds, 2U) << "asking again takes time: " << sweep.said.str();
     gone += sweep.engine.lacks_nodes() ? 1 : 0;
   }
   EXPECT_GT(gone, 10U);
 }
 
-TEST(SweepController, AnotherArithmeticIsFoundByTheReferenceFlight) {
+TEST(SweepController, TheReferenceFlightRevealsANodeWithOtherArithmetic) {
   std::vector<MadeUpNode> nodes = {{"sound"}, {"odd"}};
   nodes[1].other_arithmetic = true;
   Sweep sweep(1, 20, 2, nodes);
@@ -206,7 +206,7 @@ TEST(SweepController, AnotherArithmeticIsFoundByTheReferenceFlight) {
 
 /// The node "odd" flies the reference flight correctly and all other flights wrongly. Only flights that other nodes
 /// repeat can reveal this.
-TEST(SweepController, AllFlightsOfANodeGoWhenOneIsAnotherElsewhere) {
+TEST(SweepController, IfOneFlightOfANodeDiffersElsewhereNoneOfItsFlightsCounts) {
   int found = 0;
   for (std::uint64_t order = 1; order <= 20; ++order) {
     SCOPED_TRACE("order " + std::to_string(order));
@@ -232,7 +232,7 @@ TEST(SweepController, AllFlightsOfANodeGoWhenOneIsAnotherElsewhere) {
   EXPECT_GT(found, 5);
 }
 
-TEST(SweepController, WithNodesThatFlyNothingItEndsAndSaysWhatIsMissing) {
+TEST(SweepController, ASweepWhoseNodesFlyNothingEndsAndNamesTheMissingFlights) {
   std::vector<MadeUpNode> nodes = {{"full"}};
   nodes[0].disk_fills = 1.0;
   Sweep sweep(3, 6, 2, nodes);
@@ -257,11 +257,11 @@ TEST(SweepController, TheNextCommandFliesOnlyTheFailedFlightAgain) {
   }
 }
 
-TEST(SweepController, AnotherBuildBeginsAnewAndTheFormerOnesUnitsEnd) {
+TEST(SweepController, AnotherBuildStartsTheSweepAgainAndEndsTheFormerUnits) {
   Sweep sweep(5, 8, 2, {{"one"}, {"two"}});
   ASSERT_TRUE(sweep.control());
   MadeUpWorker late(sweep.world, sweep.nodes[0], 1);
-  ASSERT_TRUE(late.run_a_step()) << "it has begun";
+  ASSERT_TRUE(late.run_a_step()) << "the unit of the former build has begun";
   sweep.world.build = "build 2";
   ASSERT_TRUE(sweep.control());
   while (late.run_a_step()) {
@@ -315,7 +315,7 @@ fs::path damage(const Sweep& sweep, std::size_t index, std::size_t kind) {
 }
 
 // A finished unit has recorded the results of its flights, but a study must not count results that are gone.
-TEST(SweepController, FinishedUnitsAreReadAgainAndWhatIsDamagedIsFlownAgain) {
+TEST(SweepController, FinishedUnitsAreReadAgainAndDamagedFlightsAreFlownAgain) {
   for (std::uint64_t order = 1; order <= 70; ++order) {
     SCOPED_TRACE("order " + std::to_string(order));
     RandomStream draw(order, "damage", 0);
@@ -345,7 +345,7 @@ TEST(SweepController, FinishedUnitsAreReadAgainAndWhatIsDamagedIsFlownAgain) {
   }
 }
 
-TEST(SweepController, AResultWithAWrongChecksumIsNamedAndCountsAsNone) {
+TEST(SweepController, AResultWithAWrongChecksumIsNamedAndDoesNotCount) {
   Sweep sweep(7, 4, 2, {{"one"}});
   ASSERT_TRUE(sweep.control());
   const SweepFolder folder = sweep.world.folder();
@@ -370,14 +370,14 @@ TEST(SweepController, ASweepOfAnotherVersionIsNamedAndItsFlightsStay) {
   std::ofstream(settings) << R"({"format": 1, "token": "t", "reference": {"index": 0, "dir": "d", "arguments": []}})";
   try {
     sweep.rows();
-    ADD_FAILURE() << "looked at";
+    ADD_FAILURE() << "the sweep was read";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("a sweep of another version of Skein: "), std::string::npos);
   }
   const ino_t flown = inode(sweep.world.flight(2).dir);
   ASSERT_TRUE(sweep.control());
   sweep.expect_all(4);
-  EXPECT_EQ(inode(sweep.world.flight(2).dir), flown) << "it was flown again";
+  EXPECT_EQ(inode(sweep.world.flight(2).dir), flown) << "the flight must not be flown again";
 }
 
 TEST(Sweep, OneFlightInAHundredIsCheckedWhateverTheOrder) {
@@ -391,7 +391,7 @@ TEST(Sweep, OneFlightInAHundredIsCheckedWhateverTheOrder) {
     }
     EXPECT_EQ(checked, std::max<std::size_t>(1, flights / 100));
     if (flights == 100'000) {
-      EXPECT_LT(*std::ranges::max_element(by_seed), 35U) << "not always the same place in a hundred";
+      EXPECT_LT(*std::ranges::max_element(by_seed), 35U) << "the place must depend on the seed";
     }
   }
 }

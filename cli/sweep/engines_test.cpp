@@ -28,7 +28,7 @@ class FlyScript : public testing::Test {
   }
   ~FlyScript() override { ::unsetenv("SKEIN_LAUNCHER"); }
 
-  /// How many threads a unit may have. @param variables  of the node, for env(1)
+  /// The number of threads that the script gives a unit. @param variables  environment of the node, for env(1)
   std::string threads(const std::optional<int>& jobs, const std::string& variables = "") {
     write_fly_script(folder_, scratch_.path(), scratch_.path(), jobs);
     const std::string command = "env -u SKEIN_THREADS " + variables + " /bin/sh " + fly_script(folder_).string() + " 0";
@@ -42,13 +42,13 @@ class FlyScript : public testing::Test {
   SweepFolder folder_{scratch_.path()};
 };
 
-TEST_F(FlyScript, AUnitHasWhatSlurmGaveIt) {
+TEST_F(FlyScript, AUnitUsesTheCoresThatSlurmGaveIt) {
   EXPECT_EQ(threads({}, "SLURM_CPUS_ON_NODE=3"), "3");
   EXPECT_EQ(threads(2, "SLURM_CPUS_ON_NODE=1"), "1");
 }
 
 TEST_F(FlyScript, SlotsShareTheCores) {
-  EXPECT_EQ(threads({}), "1") << "as many slots as cores";
+  EXPECT_EQ(threads({}), "1") << "by default, there are as many slots as cores";
   EXPECT_EQ(threads(1000), "1");
   EXPECT_GE(std::stoi(threads(1)), 1);
 }

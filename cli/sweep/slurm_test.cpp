@@ -27,7 +27,7 @@ std::string refusal(const Words& words) try {
   return error.what();
 }
 
-TEST(SbatchOptions, ArePassedOnWithTheirValuesAsTheyAre) {
+TEST(SbatchOptions, ArePassedOnUnchanged) {
   EXPECT_EQ(sbatch_options(""), Words{});
   EXPECT_EQ(sbatch_options("partition=debug,time=1-10:00,account=mine"),
             (Words{"--partition=debug", "--time=1-10:00", "--account=mine"}));
@@ -42,7 +42,7 @@ TEST(SbatchOptions, MalformedOptionsAndThoseThatSkeinSetsAreRefused) {
   }
 }
 
-TEST(SweepOptions, NeedTheirExecutor) {
+TEST(SweepOptions, AreRefusedWithoutTheirExecutor) {
   EXPECT_NE(refusal({"compare", "--sshlogin", "a"}).find("--executor parallel"), std::string::npos);
   EXPECT_NE(refusal({"contest", "--slurm", "time=1"}).find("--executor slurm"), std::string::npos);
   EXPECT_NE(refusal({"contest", "--executor", "local", "--detach"}).find("--executor slurm"), std::string::npos);
@@ -59,7 +59,7 @@ TEST(SweepOptions, NeedTheirExecutor) {
   EXPECT_EQ(sweep.command.front(), "compare");
 }
 
-/// A sweep of single flights, and shell scripts in place of Slurm's commands.
+/// A sweep whose units are single flights. Shell scripts replace Slurm's commands.
 class StandInSlurm : public testing::Test {
  protected:
   StandInSlurm() {
@@ -96,8 +96,8 @@ class StandInSlurm : public testing::Test {
   std::ostringstream said_;
 };
 
-// Slurm limits how many jobs a user may have, so it may take the first arrays of a sweep and reject the next one.
-TEST_F(StandInSlurm, ASweepGoesOnAfterTheArraysThatWereTaken) {
+// Slurm limits how many jobs a user may have, so it may accept the first arrays of a sweep and reject the next one.
+TEST_F(StandInSlurm, ASweepContinuesAfterTheArraysThatSlurmAccepted) {
   for (std::size_t taken = 0; taken < 4; ++taken) {
     fs::remove(file("calls"));
     write_script(bin() / "sbatch", "echo \"$*\" >>" + file("calls").string() +
@@ -119,8 +119,8 @@ TEST_F(StandInSlurm, ASweepGoesOnAfterTheArraysThatWereTaken) {
   }
 }
 
-// The second query of a look asks why units wait: it may fail as well as the first, when Slurm is busy.
-TEST_F(StandInSlurm, AQueryThatFailsIsRepeated) {
+// The engine queries Slurm twice: the second query asks why units wait. Either may fail when Slurm is busy.
+TEST_F(StandInSlurm, AFailedQueryIsRepeated) {
   write_script(bin() / "sbatch", "echo 1");
   for (int failing = 2; failing <= 3; ++failing) {
     fs::remove(file("queries"));

@@ -7,9 +7,9 @@
 namespace skein::cli {
 namespace {
 
-TEST(UnitSizes, TakeTheirTimeButLeaveSeveralToEachSlot) {
+TEST(UnitSizes, FillTheRequestedTimeButLeaveSeveralUnitsForEachSlot) {
   EXPECT_EQ(unit_sizes(100'000, 15.0, 300.0, 64).size, 20U);
-  EXPECT_EQ(unit_sizes(105, 15.0, 300.0, 2).size, 6U) << "eight for each slot";
+  EXPECT_EQ(unit_sizes(105, 15.0, 300.0, 2).size, 6U) << "there are eight units for each slot";
   EXPECT_EQ(unit_sizes(4, 15.0, 300.0, 2).size, 1U);
   EXPECT_EQ(unit_sizes(100'000, 1000.0, 300.0, 2).size, 1U);
   EXPECT_EQ(unit_sizes(1'000'000, 0.0, 300.0, 1).size, 125'000U);
@@ -18,10 +18,10 @@ TEST(UnitSizes, TakeTheirTimeButLeaveSeveralToEachSlot) {
 TEST(UnitSizes, TheLastUnitsAreSmaller) {
   const UnitSizes sizes = unit_sizes(110, 9.0, 60.0, 2);
   EXPECT_EQ(sizes.size, 6U);
-  EXPECT_EQ(sizes.tail, 14U) << "two units of two slots, and what is left over";
+  EXPECT_EQ(sizes.tail, 14U) << "the tail replaces the last unit of each of two slots, and the remainder";
   EXPECT_EQ(sizes.tail_size, 2U);
   EXPECT_EQ(sizes.units(), 16U + 7U);
-  EXPECT_EQ(unit_sizes(10, 9.0, 60.0, 2).tail, 0U) << "units of one flight are small enough";
+  EXPECT_EQ(unit_sizes(10, 9.0, 60.0, 2).tail, 0U) << "units of one flight need no smaller ones";
 }
 
 TEST(UnitSizes, EachFlightIsInOneUnit) {

@@ -10,7 +10,7 @@
 
 namespace skein::cli {
 
-/// The first words of the command line, for each docker-compose that works.
+/// For each docker-compose that works on this machine: the first words of its command line.
 inline std::vector<std::vector<std::string>> compose_programs() {
   std::vector<std::vector<std::string>> programs;
   for (const std::string program : {"docker-compose", "docker compose"}) {

@@ -12,7 +12,7 @@
 
 namespace skein::cli {
 
-/// In the place of the process of a flight: notes that it was called, and leaves a result whose score is 10 times the
+/// A script that replaces the process of a flight. It notes its call, and writes a result whose score is 10 times the
 /// seed, and 1000 more for patrol.
 inline constexpr const char* kStudyFlight = R"(
 [ "$1" = --flight ] || exit 2
@@ -52,7 +52,7 @@ class StudyCommand : public ::testing::Test {
     write_text(programs_.dir() / "flights.txt", "");
     return run_study(options_, {out_, err_, false});
   }
-  /// What was flown in the last call, a line each.
+  /// The flights of the last call, one per line.
   std::string flown() const { return read_text(programs_.dir() / "flights.txt"); }
   std::string agents() const { return read_text(programs_.dir() / "agents.txt"); }
   void hook(const std::string& body) const { write_text(programs_.dir() / "hook", body); }

@@ -40,7 +40,7 @@ class MadeUpWorld {
 
   std::filesystem::path study() const { return scratch_.path() / "study"; }
 
-  /// The sweep's folder. Its files are never flushed: an order is about what other programs see, and not about power.
+  /// The sweep's folder. Its files are never flushed, because the tests simulate no power failures.
   SweepFolder folder() const {
     SweepFolder folder(study());
     folder.never_flush();
@@ -68,7 +68,7 @@ class MadeUpWorld {
   }
   std::string digest(std::size_t index) const { return build + "/" + std::to_string(index); }
 
-  /// @param step  called before and after the flight writes its result
+  /// The node as the code under test sees it. @param step  called before and after a flight writes its result
   SweepNode node(MadeUpNode& of, const std::function<void()>& step) {
     SweepNode node{of.name, "boot", "cpu", {}, {}, {}, {}};
     node.fly = [this, &of, step](const SweepFlight& flight, const std::filesystem::path& out) {
@@ -129,7 +129,7 @@ class MadeUpWorker {
   MadeUpWorker(const MadeUpWorker&) = delete;
   MadeUpWorker& operator=(const MadeUpWorker&) = delete;
 
-  /// @returns false when the unit is over.
+  /// Lets the unit continue to its next step. @returns false when the unit is over.
   bool run_a_step() {
     if (!over_) {
       go_.release();
@@ -159,7 +159,7 @@ class MadeUpWorker {
   std::thread thread_;
 };
 
-/// Faults that the engine causes, as the probability of each at a step; and the number of units at once.
+/// The probability of each fault of the engine at a step, and the number of units that it runs at once.
 struct EngineManners {
   double kills_worker = 0.0, kills_controller = 0.0, flies_twice = 0.0, forgets = 0.0;
   std::size_t at_once = 4;
@@ -204,7 +204,7 @@ class MadeUpEngine : public SweepEngine {
   bool lacks_nodes() const override { return lacks_nodes_; }
 
   EngineManners manners;
-  bool others_are_gone = false;  ///< where units exclude a node, all others have died
+  bool others_are_gone = false;  ///< a unit that excludes a node finds no other node alive
   bool asks_for_more = true;     ///< fly() calls Meanwhile::more once, when no unit waits
   std::size_t rounds = 0;        ///< calls of fly()
 
