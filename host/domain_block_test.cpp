@@ -12,7 +12,7 @@
 namespace skein::cli {
 namespace {
 
-/// Blocks that no fleet and no other test is in the way of.
+/// A name for locks that no fleet and no other test uses.
 std::string own_realm() { return "test-" + std::to_string(::getpid()) + "-"; }
 
 TEST(DomainBlock, TheFirstFreeBlockIsTaken) {
@@ -33,7 +33,7 @@ TEST(DomainBlock, AnyOverlapIsRefused) {
   for (int base = 6; base <= 14; ++base) EXPECT_THROW(DomainBlock(base, 5, own_realm()), InputError) << base;
   EXPECT_EQ(DomainBlock(5, 5, own_realm()).base(), 5);
   EXPECT_EQ(DomainBlock(15, 5, own_realm()).base(), 15);
-  EXPECT_EQ(DomainBlock(std::nullopt, 10, own_realm()).base(), 15) << "1..9 are too few";
+  EXPECT_EQ(DomainBlock(std::nullopt, 10, own_realm()).base(), 15) << "the free domains 1..9 are too few for the block";
 }
 
 TEST(DomainBlock, TheTemporaryFolderDoesNotMatter) {
@@ -46,11 +46,11 @@ TEST(DomainBlock, TheTemporaryFolderDoesNotMatter) {
   folder ? ::setenv("TMPDIR", before.c_str(), 1) : ::unsetenv("TMPDIR");
 }
 
-TEST(DomainBlock, ARefusalNamesTheProcessThatUsesADomain) {
+TEST(DomainBlock, ARefusalNamesTheProcessThatUsesTheDomain) {
   const DomainBlock a(12, 2, own_realm());
   try {
     const DomainBlock b(10, 5, own_realm());
-    FAIL() << "taken twice";
+    FAIL() << "two blocks have the same domain";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("uses domain 12 (process " + std::to_string(::getpid()) + ")"),
               std::string::npos)
@@ -58,14 +58,14 @@ TEST(DomainBlock, ARefusalNamesTheProcessThatUsesADomain) {
   }
 }
 
-TEST(DomainBlock, TheRangeIsChecked) {
+TEST(DomainBlock, ABlockOutsideTheRangeOfDomainsIsRefused) {
   EXPECT_THROW(DomainBlock(-1, 5, own_realm()), InputError);
   try {
     const DomainBlock world_in_the_default_domain(0, 5, own_realm());
-    FAIL() << "domain 0 is every ROS 2 node's";
+    FAIL() << "domain 0 was accepted, although every ROS 2 node uses it by default";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("must be within 1..196")) << "says what would be right";
-    EXPECT_THAT(error.what(), testing::HasSubstr("ROS 2")) << "and why";
+    EXPECT_THAT(error.what(), testing::HasSubstr("must be within 1..196")) << "the message names the correct range";
+    EXPECT_THAT(error.what(), testing::HasSubstr("ROS 2")) << "the message gives the reason";
   }
   EXPECT_THROW(DomainBlock(kLastDomain - 3, 5, own_realm()), InputError);
   EXPECT_EQ(DomainBlock(kLastDomain - 4, 5, own_realm()).last(), kLastDomain);

@@ -28,7 +28,7 @@ TEST(Environment, GivenVariablesReplaceThoseOfTheLauncher) {
   ::unsetenv("SKEIN_TEST_VARIABLE");
 }
 
-TEST(Environment, ChaosIsANumberOrNotSet) {
+TEST(Environment, ChaosMustBeANumberIfItIsSet) {
   for (const char* wrong : {"abc", "", "-1", "3x"}) {
     ::setenv("SKEIN_CHAOS", wrong, 1);
     EXPECT_THROW(check_environment(), InputError) << wrong;
@@ -76,7 +76,7 @@ TEST(Environment, ProgramsDoNotInheritVariablesThatConfigureDds) {
     EXPECT_NE(environment_warnings()[0].find(name), std::string::npos) << name;
     EXPECT_NE(fleet_environment_prefix(false).find("-u " + name + " "), std::string::npos) << name;
   }
-  // The launcher itself may set some of them for a program: a user's command gets the domain of its UAV in this way.
+  // The launcher may set some of these variables for a program. In this way, a user's command gets its UAV's domain.
   EXPECT_EQ(value_of(fleet_environment(false, {{"SKEIN_DOMAIN", "3"}}), "SKEIN_DOMAIN"), "3");
   EXPECT_EQ(value_of(fleet_environment(false, {{"ROS_DOMAIN_ID", "3"}}), "ROS_DOMAIN_ID"), "3");
 }
@@ -90,7 +90,7 @@ TEST(Environment, ProgramsInheritOtherVariables) {
   EXPECT_TRUE(environment_warnings().empty());
 }
 
-TEST(Environment, DoesNotWarnOfVariablesThatAreRead) {
+TEST(Environment, DoesNotWarnOfVariablesThatSkeinReads) {
   const Variables set(Values{{"SKEIN_THREADS", "2"}, {"SKEIN_LAUNCHER", "/x/skein"}, {"SKEIN_LOADER", "/x/ld.so"}});
   EXPECT_TRUE(environment_warnings().empty()) << environment_warnings()[0];
 }

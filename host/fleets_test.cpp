@@ -1,4 +1,4 @@
-// Other fleets may fly on this host meanwhile, so all tests look only for those of their own folders.
+// Other fleets may fly on this host meanwhile, so each test looks only for the fleets of its own folders.
 #include "host/fleets.hpp"
 
 #include <gtest/gtest.h>
@@ -27,8 +27,8 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-/// A process with the command line and the environment of another program: it has just started /bin/sh under this name,
-/// and stands still, with this process as its debugger.
+/// A process with the command line and the environment of another program. It has just started /bin/sh under this name,
+/// and is stopped. This process is its debugger.
 class Sham {
  public:
   enum class Network { here, elsewhere };
@@ -58,10 +58,10 @@ class Sham {
   Sham(const Sham&) = delete;
   Sham& operator=(const Sham&) = delete;
 
-  /// False if the system allows no debugger, or no other network namespace.
+  /// Whether the process was started and is stopped. False if the system allows no debugger or no network namespaces.
   bool stands() const { return stands_; }
   pid_t pid() const { return pid_; }
-  /// Lets it run, without a debugger. @param signal  it gets this signal; 0: none
+  /// Detaches the debugger and lets the process run. @param signal  sent to the process; 0: none
   void release(int signal = 0) const {
     EXPECT_EQ(::ptrace(PTRACE_DETACH, pid_, nullptr, static_cast<long>(signal)), 0);
   }
@@ -84,14 +84,14 @@ class FleetsTest : public ::testing::Test {
     if (!Sham({"sh"}).stands()) GTEST_SKIP() << "this system does not allow processes to be traced";
   }
   std::string dir() const { return scratch_.path(); }
-  /// A command line of a program of this fleet.
+  /// The command line of a program of this fleet.
   Strings words(const std::string& program, const Strings& more = {}) const { return words_in(dir(), program, more); }
   static Strings words_in(const std::string& dir, const std::string& program, const Strings& more = {}) {
     Strings all = {"/opt/skein/bin/" + program, "--scenario", "towers.yaml", "--out", dir};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// The domain of no real fleet, nor of another test.
+  /// A domain that no real fleet and no other test uses.
   static int own_domain() { return 1'000'000 + ::getpid(); }
   std::optional<RunningFleet> found(uid_t user = ::geteuid()) const {
     for (const RunningFleet& fleet : running_fleets(user)) {
@@ -146,25 +146,26 @@ TEST_F(FleetsTest, TheLauncherIsTheHolderOfTheDomain) {
   EXPECT_EQ(found().value().launcher, ::getpid());
 }
 
-TEST_F(FleetsTest, ADomainOfAnotherNetworkNamespaceIsNotTheOneHere) {
+TEST_F(FleetsTest, TheSameDomainInAnotherNetworkNamespaceIsAnotherDomain) {
   const auto lock = HostLock::try_take(domain_lock_name(own_domain()));
   ASSERT_TRUE(lock);
   const Sham server(words("sim_server", {"--domain", std::to_string(own_domain())}), {}, Sham::Network::elsewhere);
   if (!server.stands()) GTEST_SKIP() << "this system does not allow another network namespace";
   EXPECT_TRUE(found().value().elsewhere);
-  EXPECT_EQ(found().value().launcher, std::nullopt) << "it holds the domain with the same number here";
-  EXPECT_EQ(chosen_fleet(dir(), "attach", "--out").dir, dir()) << "who names it, gets it";
+  EXPECT_EQ(found().value().launcher, std::nullopt)
+      << "this process holds only the domain of its own network namespace";
+  EXPECT_EQ(chosen_fleet(dir(), "attach", "--out").dir, dir()) << "a user who names the folder can choose the fleet";
 
   const ScratchDir here;
   const Sham near(words_in(here.path(), "sim_server"));
   try {
     EXPECT_FALSE(chosen_fleet(std::nullopt, "attach", "--out").elsewhere);
-  } catch (const InputError& error) {  // further fleets fly here
+  } catch (const InputError& error) {  // other fleets fly on this host
     EXPECT_EQ(std::string(error.what()).find(shown_folder(dir())), std::string::npos) << error.what();
   }
 }
 
-TEST_F(FleetsTest, ProgramsAreKnownByTheirCommandLines) {
+TEST_F(FleetsTest, ProgramsAreRecognisedByTheirCommandLines) {
   const Sham server(words("sim_server")), router(words("comm_router")), station(words("station")),
       agent(words("my_agent", {"--uav", "jurong"})), ground(words("my_agent", {"--role", "gcs"}));
   const Sham stranger(words("my_editor")), checks(Strings{"station", "--check", "--scenario", "x", "--out", dir()}),
@@ -177,10 +178,10 @@ TEST_F(FleetsTest, ProgramsAreKnownByTheirCommandLines) {
                                                            {"station", station.pid()},
                                                            {"uav_agent-jurong", agent.pid()},
                                                            {"uav_agent-gcs", ground.pid()}}));
-  EXPECT_FALSE(found(::geteuid() + 1)) << "it is another user's";
+  EXPECT_FALSE(found(::geteuid() + 1)) << "another user must not find this fleet";
 }
 
-TEST_F(FleetsTest, WithoutASimServerThereIsNone) {
+TEST_F(FleetsTest, WithoutASimServerThereIsNoFleet) {
   const Sham router(words("comm_router")), station(words("station"));
   EXPECT_FALSE(found());
 }
@@ -207,7 +208,7 @@ TEST_F(FleetsTest, AFleetIsChosenByItsFolder) {
   EXPECT_THROW(chosen_fleet(empty.path() / "none", "attach", "--out"), InputError);
   try {
     chosen_fleet(std::nullopt, "attach", "--out");
-    FAIL() << "there are two";
+    FAIL() << "a fleet was chosen, although two fly";
   } catch (const InputError& error) {
     for (const auto& folder : {scratch_.path(), other.path()}) {
       EXPECT_NE(std::string(error.what()).find(shown_folder(folder)), std::string::npos) << error.what();
@@ -215,7 +216,7 @@ TEST_F(FleetsTest, AFleetIsChosenByItsFolder) {
   }
 }
 
-TEST_F(FleetsTest, AStateIsOneOfThree) {
+TEST_F(FleetsTest, TheStateOfAProcessIsDebuggedStoppedOrRuns) {
   const Sham process({"sh", "-c", "sleep 1000"}, {"PATH=/usr/bin:/bin"});
   const std::string debugger = process_name(::getpid()) + " (process " + std::to_string(::getpid()) + ")";
   EXPECT_EQ(state_text(process.pid()), "debugged by " + debugger);
@@ -238,12 +239,12 @@ TEST(SimulatedTime, IsThatOfTheLastRowThatIsCertainlyComplete) {
   };
   EXPECT_EQ(after(""), std::nullopt);
   EXPECT_EQ(after("time_s,uav,x\n"), std::nullopt);
-  EXPECT_EQ(after("12"), std::nullopt) << "perhaps 12.5";
+  EXPECT_EQ(after("12"), std::nullopt) << "the row may still be incomplete: the time may be 12.5";
   EXPECT_EQ(after(".5,a,1\n13"), 12.5);
   EXPECT_EQ(after(".75,a,2\n14.2"), 13.75);
 }
 
-TEST(ShownFolder, IsRelativeBelowTheWorkingFolderOnly) {
+TEST(ShownFolder, IsRelativeOnlyBelowTheWorkingFolder) {
   const std::filesystem::path here = std::filesystem::current_path();
   EXPECT_EQ(shown_folder(here / "runs" / "7"), "runs/7");
   EXPECT_EQ(shown_folder(here.parent_path() / "no_such_sibling"), here.parent_path() / "no_such_sibling");

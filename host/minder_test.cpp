@@ -1,4 +1,4 @@
-// A minder itself, without a supervisor. All waits have a limit: a faulty minder fails a test and does not hang it.
+// Tests a minder without a supervisor. All waits have a limit, so a faulty minder fails a test and does not hang it.
 #include "host/minder.hpp"
 
 #include <fcntl.h>
@@ -20,13 +20,13 @@
 namespace skein::cli {
 namespace {
 
-/// Fills the stack below the caller with zeros, so that no function finds there what an earlier one left behind.
+/// Fills the stack below the caller with zeros, so that no function finds values there that an earlier one left.
 [[gnu::noinline]] void wipe_stack() {
   volatile char bytes[16'384];
   for (volatile char& byte : bytes) byte = 0;
 }
 
-/// Whether a process has closed all its files and sleeps: a minder that waits for a signal.
+/// Whether a process has closed all its files and sleeps, as a minder does while it waits for a signal.
 bool waits(pid_t minder) {
   const std::filesystem::path folder = "/proc/" + std::to_string(minder);
   std::error_code gone;
@@ -38,7 +38,7 @@ bool waits(pid_t minder) {
   return false;
 }
 
-/// A minder with a shell script as its program. The script reads lines of the test and writes lines to it.
+/// A minder whose program is a shell script. The script reads lines from the test and writes lines to the test.
 class MinderTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -53,12 +53,12 @@ class MinderTest : public ::testing::Test {
     for (const int fd : {input_[0], input_[1], output_[0], output_[1]}) ::close(fd);
   }
 
-  /// Starts it as a child of this process, which is its launcher.
+  /// Starts the minder as a child of this process, which is its launcher.
   void start(const std::string& script) {
     minder_ = fork_minder(script);
     close_output();
   }
-  /// Starts it as a child of a launcher that does nothing. @returns the launcher
+  /// Starts the minder as a child of a launcher that does nothing. @returns the launcher
   pid_t start_below_launcher(const std::string& script) {
     int news[2];
     EXPECT_EQ(::pipe2(news, O_CLOEXEC), 0);
@@ -82,7 +82,7 @@ class MinderTest : public ::testing::Test {
   void say(const std::string& line) const {
     EXPECT_EQ(::write(input_[1], (line + "\n").c_str(), line.size() + 1), static_cast<ssize_t>(line.size() + 1));
   }
-  /// The next line that the script or a process below it writes; empty: there is none in time.
+  /// The next line that the script or a process below it writes; empty: none came in time.
   std::string heard() const {
     std::string line;
     const auto is_complete = [&] {
@@ -142,9 +142,9 @@ class MinderTest : public ::testing::Test {
   bool has_ended_ = false;
 };
 
-TEST_F(MinderTest, EndsAsItsProgramDoes) {
+TEST_F(MinderTest, EndsWithTheExitCodeOfItsProgram) {
   start("read line; exit 5");
-  ASSERT_TRUE(minder_waits()) << "perhaps it has kept files of its launcher";
+  ASSERT_TRUE(minder_waits()) << "the minder does not wait, or has kept files of its launcher open";
   EXPECT_EQ(process_name(minder()), "skein-minder");
   say("go");
   EXPECT_EQ(next_change(), "code 5");
@@ -157,7 +157,7 @@ TEST_F(MinderTest, EndsByTheSignalThatEndsItsProgram) {
   EXPECT_EQ(next_change(), "signal " + std::to_string(SIGTERM));
 }
 
-TEST_F(MinderTest, NoticesAnEndThatComesAtOnce) {
+TEST_F(MinderTest, NoticesAProgramThatEndsAtOnce) {
   start("exit 7");
   EXPECT_EQ(next_change(), "code 7");
 }
@@ -168,7 +168,7 @@ TEST_F(MinderTest, IsNotEndedBySignals) {
   EXPECT_EQ(::kill(minder(), SIGSTOP), 0);
   ASSERT_EQ(next_change(), "stopped");
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGCHLD, SIGUSR1, SIGUSR2, SIGRTMIN, SIGCONT}) {
-    EXPECT_EQ(::kill(minder(), signal), 0);  // all of them are there when it goes on
+    EXPECT_EQ(::kill(minder(), signal), 0);  // all signals are pending when the minder continues
   }
   ASSERT_TRUE(minder_waits());
   say("go");
@@ -188,20 +188,21 @@ TEST_F(MinderTest, StopsWithItsProgramAndGoesOn) {
   EXPECT_EQ(next_change(), "code 5");
 }
 
-TEST_F(MinderTest, TheEndOfAnotherProcessIsNotThatOfItsProgram) {
+TEST_F(MinderTest, DoesNotEndWhenAnotherProcessThanItsProgramEnds) {
   start("sh -c 'sleep 1000 & echo $!'; read line; echo alive; exit 5");
   const pid_t orphan = std::atoi(heard().c_str());
   ASSERT_GT(orphan, 0);
-  ASSERT_TRUE(eventually([&] { return parent_of(orphan) == minder(); }, kUntilNoticed)) << "it is a subreaper";
+  ASSERT_TRUE(eventually([&] { return parent_of(orphan) == minder(); }, kUntilNoticed))
+      << "the minder did not become the parent, although it is a subreaper";
   EXPECT_EQ(::kill(orphan, SIGKILL), 0);
-  EXPECT_TRUE(eventually([&] { return parent_of(orphan) == 0; }, kUntilNoticed)) << "a zombie is left";
+  EXPECT_TRUE(eventually([&] { return parent_of(orphan) == 0; }, kUntilNoticed)) << "the minder has left a zombie";
   say("go");
   EXPECT_EQ(heard(), "alive");
   EXPECT_EQ(next_change(), "code 5");
 }
 
-// Round by round: the children of a process become the minder's only when that process is dead.
-TEST_F(MinderTest, KillsWhatItsProgramLeavesBehindAlsoInTheThirdGeneration) {
+// The minder must kill in several rounds: the children of a process become its own only when that process is dead.
+TEST_F(MinderTest, KillsTheProcessesThatItsProgramLeavesBehindAlsoInTheThirdGeneration) {
   start("( (sleep 1000 & echo started; wait) & wait) & read line; exit 5");
   EXPECT_EQ(heard(), "started");
   ASSERT_TRUE(minder_waits());

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, scratch folders are made in a folder of its own.
+/// While an object of this class lives, scratch folders are made in a temporary folder of its own.
 class OwnTmpdir {
  public:
   OwnTmpdir() {
@@ -50,7 +50,7 @@ TEST(ScratchDir, TheNextProcessRemovesTheFolderOfAKilledOne) {
   std::mt19937 draw(7);
   for (int round = 0; round < 8; ++round) {
     const pid_t maker = start_maker();
-    // Somewhere in its work: after it has been there so and so often.
+    // Kill the maker at a random point of its work: after this process has seen scratch folders so many times.
     for (int looks = 1 + static_cast<int>(draw() % 15); looks > 0;) looks -= tmpdir.entries() > 0;
     ::kill(maker, SIGKILL);
     ASSERT_EQ(::waitpid(maker, nullptr, 0), maker);
@@ -77,7 +77,7 @@ TEST(ScratchDir, FoldersInUseAndFilesOfOthersStay) {
     EXPECT_EQ(read_text(other.path() / "key"), "y");
   }
   for (const pid_t maker : makers) {
-    EXPECT_EQ(::kill(maker, SIGKILL), 0) << "it failed";
+    EXPECT_EQ(::kill(maker, SIGKILL), 0) << "the maker has ended by itself";
     int status = 0;
     ::waitpid(maker, &status, 0);
     EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) << status;

@@ -18,7 +18,7 @@ class ProcessOrdersTest : public ::testing::Test {
   void start(const std::string& script) {
     supervisor_.start({"a", {"/bin/sh", "-c", script}, environment_with({}), scratch_.path() / "a.log"});
   }
-  /// Waits for the program's end. @returns whether it was ordered.
+  /// Waits for the program's end. @returns whether the end was ordered.
   bool end_was_ordered() {
     while (true) {
       for (const Event& event : supervisor_.wait(kForever)) {
@@ -39,16 +39,16 @@ class ProcessOrdersTest : public ::testing::Test {
   const std::vector<std::string> a_{"a"};
 };
 
-TEST_F(ProcessOrdersTest, AnOrderedDeathIsNoneToComplainAboutAndThenItComesBack) {
+TEST_F(ProcessOrdersTest, AnOrderedDeathIsNoFailureAndTheProgramMayReturn) {
   start("read line <&4; kill -KILL $$");
   orders_.take_out("a", true, false);
   orders_.let_back("a");
-  EXPECT_TRUE(orders_.take_returning().empty()) << "it still lives";
+  EXPECT_TRUE(orders_.take_returning().empty()) << "the program still lives";
   supervisor_.send("a", "go");
   EXPECT_TRUE(end_was_ordered());
   EXPECT_EQ(orders_.take_returning(), a_);
-  EXPECT_TRUE(orders_.take_returning().empty()) << "told once";
-  EXPECT_TRUE(orders_.out().contains("a")) << "until it has joined";
+  EXPECT_TRUE(orders_.take_returning().empty()) << "each return is reported once";
+  EXPECT_TRUE(orders_.out().contains("a")) << "a program is out until it has joined again";
   orders_.returned("a");
   EXPECT_TRUE(orders_.out().empty());
 }
@@ -61,10 +61,10 @@ TEST_F(ProcessOrdersTest, AnyOtherEndIsAFailure) {
   start("read line <&4; exit 5");
   orders_.take_out("a", false, false);
   supervisor_.signal("a", SIGKILL);
-  EXPECT_FALSE(end_was_ordered()) << "it was to stop, not to die";
+  EXPECT_FALSE(end_was_ordered()) << "the order was to stop, not to die";
 }
 
-TEST_F(ProcessOrdersTest, ItsSecondDeathIsAFailure) {
+TEST_F(ProcessOrdersTest, ASecondDeathWithoutAnOrderIsAFailure) {
   start("kill -KILL $$");
   orders_.take_out("a", true, false);
   EXPECT_TRUE(end_was_ordered());
@@ -74,11 +74,11 @@ TEST_F(ProcessOrdersTest, ItsSecondDeathIsAFailure) {
   EXPECT_FALSE(end_was_ordered());
 }
 
-TEST_F(ProcessOrdersTest, AProgramThatStopsGoesOnOnceItHasBeenSeenToStandStill) {
+TEST_F(ProcessOrdersTest, AProgramReturnsOnlyAfterItWasSeenToBeStopped) {
   start("read line <&4; kill -STOP $$; read line <&4");
   orders_.take_out("a", false, false);
   orders_.let_back("a");
-  EXPECT_TRUE(orders_.take_returning().empty()) << "a signal that came before the stop would be lost";
+  EXPECT_TRUE(orders_.take_returning().empty()) << "a SIGCONT before the stop would be lost";
   supervisor_.send("a", "go");
   EXPECT_EQ(wait_for_returning(), a_);
   supervisor_.signal("a", SIGCONT);
@@ -86,7 +86,7 @@ TEST_F(ProcessOrdersTest, AProgramThatStopsGoesOnOnceItHasBeenSeenToStandStill) 
   while (supervisor_.running("a")) supervisor_.wait(kForever);
 }
 
-TEST_F(ProcessOrdersTest, AProgramThatKnowsNoOrdersIsKilledAndStoppedByUs) {
+TEST_F(ProcessOrdersTest, TheLauncherKillsAndStopsAProgramThatKnowsNoOrders) {
   start("read line <&4");
   orders_.take_out("a", false, true);
   orders_.let_back("a");
@@ -95,7 +95,7 @@ TEST_F(ProcessOrdersTest, AProgramThatKnowsNoOrdersIsKilledAndStoppedByUs) {
   EXPECT_TRUE(end_was_ordered());
 }
 
-TEST_F(ProcessOrdersTest, AProgramThatIsAwayAtTheRunsEndIsKilledWithoutAComplaint) {
+TEST_F(ProcessOrdersTest, AProgramThatIsOutAtTheEndOfTheRunIsKilledAndIsNoFailure) {
   start("kill -STOP $$");
   orders_.take_out("a", false, false);
   orders_.end();

@@ -1,4 +1,4 @@
-// The launcher's side of a process that contains a fleet, with a shell script for that process.
+// The launcher's side of a process that contains a fleet. A shell script replaces that process.
 #include "host/shared_process.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr std::uint64_t kMostLog = 2 << 20;
 
 class SharedProcessTest : public testing::Test {
  protected:
-  /// @param script  file descriptor 3 is the status pipe, 4 the control pipe.
+  /// Starts the process. @param script  its shell script: descriptor 3 is the status pipe, 4 the control pipe
   void home(const std::string& script) {
     host_.emplace(ProgramSpec{"home", {"/bin/sh", "-c", script}, environment_with({}), folder_.path() / "home.log"});
     for (const char* program : {"a", "b"}) {
@@ -30,7 +30,7 @@ class SharedProcessTest : public testing::Test {
     }
   }
   std::filesystem::path log_of(const std::string& program) const { return folder_.path() / (program + ".log"); }
-  /// Until no program runs, or `end` comes.
+  /// Collects events until no program runs, or until there is one of the program `end`.
   std::vector<Event> hear(const std::string& end = "") {
     std::vector<Event> all;
     eventually([&] {
@@ -67,7 +67,7 @@ TEST_F(SharedProcessTest, ProgramsAreStartedAndHeardByTheirNames) {
   EXPECT_EQ(host_->processes(), (std::vector<std::string>{"home"}));
 }
 
-TEST_F(SharedProcessTest, EndsOfProgramsAreNoEndsOfTheProcess) {
+TEST_F(SharedProcessTest, TheProcessGoesOnWhenItsProgramsHaveEnded) {
   home(kReadTwo + R"(echo '{"ended": "a", "code": 3, "signal": 0}' >&3; echo '{"ended": "nobody", "code": 3}' >&3
 echo '{"ended": "b", "code": 0, "signal": 9}' >&3; )" +
        kRest);
@@ -79,11 +79,12 @@ echo '{"ended": "b", "code": 0, "signal": 9}' >&3; )" +
   const auto last = ends_in(host_->end_all(5000ms));
   ASSERT_EQ(last.size(), 1U);
   EXPECT_EQ(last[0].program, "home");
-  EXPECT_TRUE(last[0].exit.ok()) << last[0].exit.text() << ": it ends when nobody has more to say to it";
+  EXPECT_TRUE(last[0].exit.ok()) << last[0].exit.text()
+                                 << ": the process must end when the launcher closes the control pipe";
   EXPECT_FALSE(last[0].exit.shared);
 }
 
-TEST_F(SharedProcessTest, OnlyTheProgramThatTookTheProcessAlongIsToBlame) {
+TEST_F(SharedProcessTest, OnlyTheProgramThatCrashedTheProcessIsToBlame) {
   home(kReadTwo + R"(echo '{"ended": "b", "code": 0, "signal": 11, "fatal": true}' >&3; kill -SEGV $$)");
   const auto ends = ends_in(hear());
   ASSERT_EQ(ends.size(), 3U);
@@ -95,13 +96,13 @@ TEST_F(SharedProcessTest, OnlyTheProgramThatTookTheProcessAlongIsToBlame) {
   }
 }
 
-TEST_F(SharedProcessTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
+TEST_F(SharedProcessTest, AnEndlessLogKeepsItsBeginningAndItsEnd) {
   const std::string log = log_of("a");
   home(kReadTwo + "echo first >>" + log + "; head -c 30000000 /dev/zero | tr '\\0' x >>" + log + "; echo >>" + log +
        R"(; echo '{"said_by": "a", "line": {}}' >&3; read line <&4; echo last >>)" + log + "; kill -KILL $$");
   hear("a");
   host_->wait(0ms);
-  EXPECT_LE(std::filesystem::file_size(log), kMostLog) << "also while it runs";
+  EXPECT_LE(std::filesystem::file_size(log), kMostLog) << "the limit also applies while the program runs";
   host_->send("a", "go");
   hear();
   EXPECT_EQ(last_lines(log, 1), std::vector<std::string>{"last"});
@@ -111,7 +112,7 @@ TEST_F(SharedProcessTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
   EXPECT_NE(text.find("\n[skein] what stood here is left out: the log has more than 2 MiB\n"), std::string::npos);
 }
 
-TEST_F(SharedProcessTest, ADeathWithoutAnExplanationIsTheProcesssOwn) {
+TEST_F(SharedProcessTest, ADeathThatNoProgramCausedIsReportedForTheProcess) {
   home(kReadTwo + "kill -KILL $$");
   const auto ends = ends_in(hear());
   ASSERT_EQ(ends.size(), 3U);
@@ -135,9 +136,9 @@ echo '{"stopped": "a"}' >&3; )" +
   EXPECT_EQ(parse_json(events[1].line), (Json{{"tell", "b"}, {"line", "lost jurong"}}));
   for (int i = 0; i < 20 && !host_->has_stopped("a"); ++i) {
     host_->wait(50ms);
-    if (i == 19) ADD_FAILURE() << "nothing heard of a";
+    if (i == 19) ADD_FAILURE() << "the stop of program a was not reported";
   }
-  EXPECT_FALSE(host_->has_stopped("a")) << "told once";
+  EXPECT_FALSE(host_->has_stopped("a")) << "each stop is reported once";
 }
 
 }  // namespace

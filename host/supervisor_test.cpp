@@ -22,7 +22,7 @@ class SupervisorTest : public ::testing::Test {
     return {name, {"/bin/sh", "-c", script}, environment_with({}), scratch_.path() / (name + ".log")};
   }
 
-  /// All events until no program is left.
+  /// Collects all events until no program is left.
   std::vector<Event> run_out() {
     std::vector<Event> all;
     const auto none_is_left = [&] {
@@ -31,15 +31,15 @@ class SupervisorTest : public ::testing::Test {
       }
       return supervisor_.running().empty();
     };
-    EXPECT_TRUE(eventually(none_is_left, kUntilNoticed)) << "a program runs on";
-    if (all.empty()) all.emplace_back();  // there is always an end, except in a test that has just failed
+    EXPECT_TRUE(eventually(none_is_left, kUntilNoticed)) << "a program still runs";
+    if (all.empty()) all.emplace_back();  // only in a failed test: callers read the last event
     return all;
   }
   /// Waits until a program is seen to have been stopped.
   bool stops(const std::string& program) {
     return eventually([&] { return supervisor_.has_stopped(program); }, kUntilNoticed);
   }
-  /// The supervisor's destructor waits for its programs, and their minders.
+  /// Kills the programs of a failed test: the supervisor's destructor waits for them and their minders.
   void TearDown() override {
     if (HasFailure()) kill_own_children();
   }
@@ -101,7 +101,7 @@ TEST_F(SupervisorTest, AFullControlPipeDoesNotBlock) {
   EXPECT_TRUE(supervisor_.running().empty());
 }
 
-TEST_F(SupervisorTest, EndAllUsesTermFirstAndKillForThoseThatIgnoreIt) {
+TEST_F(SupervisorTest, EndAllSendsSigtermAndKillsProgramsThatIgnoreIt) {
   supervisor_.start(shell("polite", "trap 'exit 7' TERM; echo ready >&3; while :; do read line <&4; done"));
   supervisor_.start(shell("stubborn", "trap '' TERM; echo ready >&3; while :; do read line <&4; done"));
   for (std::size_t ready = 0; ready < 2;) ready += supervisor_.wait(kNoLimit).size();
@@ -119,7 +119,7 @@ TEST_F(SupervisorTest, AStoppedProgramCanBeEnded) {
   EXPECT_TRUE(supervisor_.running().empty());
 }
 
-TEST_F(SupervisorTest, AProgramThatStopsItselfIsSeenOnceAndCanBeContinued) {
+TEST_F(SupervisorTest, AProgramThatStopsItselfIsReportedOnceAndCanBeContinued) {
   supervisor_.start(shell("a", "echo stopping >&3; kill -STOP $$; echo going on >&3"));
   EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).line, "stopping");
   ASSERT_TRUE(stops("a"));
@@ -129,7 +129,7 @@ TEST_F(SupervisorTest, AProgramThatStopsItselfIsSeenOnceAndCanBeContinued) {
   EXPECT_FALSE(supervisor_.has_stopped("a"));
 }
 
-TEST_F(SupervisorTest, ALogCanBeGoneOnWith) {
+TEST_F(SupervisorTest, ARestartedProgramCanAppendToItsLog) {
   ProgramSpec program = shell("a", "echo life");
   supervisor_.start(program);
   run_out();
@@ -156,7 +156,7 @@ TEST_F(SupervisorTest, TheProcessesThatAMindedProgramStartedEndWithIt) {
   EXPECT_TRUE(pipe.all_ended());
 }
 
-TEST_F(SupervisorTest, AMindedProgramIsLikeAnyOtherOne) {
+TEST_F(SupervisorTest, AMindedProgramBehavesLikeAnyOtherOne) {
   ProgramSpec program = shell("a", "echo stopping >&3; kill -STOP $$; read line <&4; kill -SEGV $$");
   program.minded = true;
   supervisor_.start(program);
@@ -210,7 +210,7 @@ TEST_F(SupervisorTest, AMissingBinaryIsAnErrorWithItsName) {
 
 class KilledLauncher : public ::testing::TestWithParam<bool> {};
 
-TEST_P(KilledLauncher, IsOutlivedByNothing) {
+TEST_P(KilledLauncher, IsOutlivedByNoProgram) {
   OpenUntilAllEnded pipe;
   const bool minded = GetParam();
   const pid_t launcher = ::fork();
@@ -241,7 +241,7 @@ TEST_F(SupervisorTest, AProgramThatWritesALineWithoutAnEndIsCutOffAndNamed) {
   EXPECT_EQ(events[1].kind, Event::Kind::cut_off);
   EXPECT_EQ(events[1].program, "endless");
   EXPECT_NE(events[1].line.find("line without an end"), std::string::npos) << events[1].line;
-  EXPECT_EQ(events[2].exit.code, 7) << "it may go on, without anybody who listens";
+  EXPECT_EQ(events[2].exit.code, 7) << "the program goes on, although nobody reads its pipe";
   supervisor_.send("other", "still heard");
   EXPECT_EQ(run_out().at(0).line, "still heard");
 }
@@ -262,25 +262,27 @@ TEST_F(SupervisorTest, AProgramThatWritesLinesWithoutAnEndIsCutOffToo) {
   EXPECT_EQ(cuts, 1U);
   EXPECT_GE(lines, std::size_t{1 << 19});
   EXPECT_LE(lines, std::size_t{1 << 19} + 4096);
-  EXPECT_LE(most_at_once, std::size_t{40000}) << "others wait for their turn, and memory is taken for all of them";
+  EXPECT_LE(most_at_once, std::size_t{40000})
+      << "the supervisor must not buffer more: other programs wait for their turn";
 }
 
-TEST_F(SupervisorTest, ALongReportIsNoLineWithoutAnEnd) {
+TEST_F(SupervisorTest, ALongReportIsNotTakenForALineWithoutAnEnd) {
   supervisor_.start(shell("a", "head -c 15000000 /dev/zero | tr '\\0' x >&3; echo >&3"));
   const std::vector<Event> events = run_out();
   ASSERT_EQ(events.size(), 2U);
   EXPECT_EQ(events[0].line.size(), 15000000U);
 }
 
-TEST_F(SupervisorTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
-  EXPECT_LE(ProgramSpec().most_log_bytes, 64U << 20) << "of each program, if nobody says otherwise";
+TEST_F(SupervisorTest, AnEndlessLogKeepsItsBeginningAndItsEnd) {
+  EXPECT_LE(ProgramSpec().most_log_bytes, 64U << 20) << "the default limit of each program's log";
   ProgramSpec spec =
       shell("a", "echo first; head -c 30000000 /dev/zero | tr '\\0' x; echo >&3; read line <&4; echo; echo last");
   spec.most_log_bytes = 2 << 20;
   supervisor_.start(spec);
   EXPECT_EQ(supervisor_.wait(kNoLimit).at(0).kind, Event::Kind::status_line);
   supervisor_.wait(std::chrono::milliseconds(0));
-  EXPECT_LE(std::filesystem::file_size(spec.log), std::uintmax_t{2 << 20}) << "also while it runs";
+  EXPECT_LE(std::filesystem::file_size(spec.log), std::uintmax_t{2 << 20})
+      << "the limit also applies while the program runs";
   supervisor_.send("a", "go");
   run_out();
   std::ifstream in(spec.log);
@@ -293,18 +295,18 @@ TEST_F(SupervisorTest, ALogWithoutEndKeepsItsBeginningAndItsEnd) {
             std::string::npos);
 }
 
-TEST_F(SupervisorTest, TheEndOfAHugeLogIsShort) {
+TEST_F(SupervisorTest, TheLastLinesOfAHugeLogAreShort) {
   const auto log = scratch_.path() / "huge.log";
   std::ofstream(log) << std::string(300000, 'x');
   EXPECT_EQ(last_lines(log, 10).size(), 1U);
   EXPECT_LE(last_lines(log, 10)[0].size(), 1100U);
   std::ofstream(log, std::ios::app) << "yes\n";
-  ASSERT_EQ(last_lines(log, 10).size(), 1U) << "all that the program said is one line";
+  ASSERT_EQ(last_lines(log, 10).size(), 1U) << "the log has only one line";
   EXPECT_TRUE(last_lines(log, 10)[0].starts_with("... ") && last_lines(log, 10)[0].ends_with("xyes"));
   EXPECT_LE(last_lines(log, 10)[0].size(), 1100U);
   std::ofstream(log, std::ios::app) << "last words\n";
   EXPECT_EQ(last_lines(log, 10), std::vector<std::string>{"last words"});
-  std::filesystem::resize_file(log, std::uintmax_t{1} << 40);  // a hole
+  std::filesystem::resize_file(log, std::uintmax_t{1} << 40);  // a sparse file
   EXPECT_LE(last_lines(log, 10).size(), 1U);
   EXPECT_TRUE(last_lines(scratch_.path() / "none.log", 10).empty());
 }

@@ -1,4 +1,4 @@
-// Structs as JSON and back, and what becomes of JSON that does not fit.
+// Structs are written as JSON and read back. Values that do not fit are ignored.
 #include "process/json_fields.hpp"
 
 #include <gtest/gtest.h>
@@ -76,7 +76,7 @@ TEST(JsonFields, AnAmountIsNeverNegative) {
   EXPECT_EQ(json_of(Amount(2.5)), Json(2.5));
 }
 
-TEST(JsonFields, KeysStandInTheOrderOfTheList) {
+TEST(JsonFields, KeysHaveTheOrderOfTheListOfFields) {
   Whole whole = some();
   whole.absent.reset();
   whole.null.reset();
@@ -95,7 +95,7 @@ TEST(JsonFields, AMissingKeyOrOneOfAnotherKindLeavesTheValueAsItWas) {
   for (const auto& [key, value] : good.items()) {
     Json lacking = good;
     lacking.erase(key);
-    nlohmann::json expected = json_of(Whole());  // in whatever order
+    nlohmann::json expected = json_of(Whole());  // json_of() may list the keys in any order
     for (const auto& [other, known] : good.items()) {
       if (other != key) expected[other] = known;
     }
@@ -103,7 +103,7 @@ TEST(JsonFields, AMissingKeyOrOneOfAnotherKindLeavesTheValueAsItWas) {
     for (const Json& odd : wrong) {
       Json damaged = good;
       damaged[key] = odd;
-      const Whole read = struct_of<Whole>(damaged);  // throws for none of them
+      const Whole read = struct_of<Whole>(damaged);  // must not throw
       if (odd.is_null()) {
         EXPECT_EQ(nlohmann::json(json_of(read)), expected) << key;
       }
@@ -111,7 +111,7 @@ TEST(JsonFields, AMissingKeyOrOneOfAnotherKindLeavesTheValueAsItWas) {
   }
 }
 
-TEST(JsonFields, NumbersForWhichThereIsNoRoomDoNotFit) {
+TEST(JsonFields, NumbersThatAreTooLargeForTheFieldDoNotFit) {
   const auto small_of = [](const Json& number) { return struct_of<Whole>({{"small", number}}).small; };
   EXPECT_EQ(small_of(2.75), 2);
   EXPECT_EQ(small_of(1e10), -1);

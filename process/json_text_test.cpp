@@ -19,7 +19,7 @@ int depth_of(const Json& json) {
   return deepest;
 }
 
-/// Any JSON, with brackets, quotes and backslashes in its texts.
+/// Random JSON. Its texts contain brackets, quotes and backslashes.
 Json drawn(std::mt19937& random, int depth) {
   const auto below = [&](unsigned end) { return random() % end; };
   const auto text = [&] {
@@ -55,7 +55,7 @@ TEST(JsonText, JsonThatWasWrittenIsReadAgain) {
   }
 }
 
-TEST(JsonText, DeepValuesAreLeftOutAndTheRestStays) {
+TEST(JsonText, ValuesThatAreTooDeepAreLeftOutAndTheRestStays) {
   for (int depth = 0; depth <= 32; ++depth) EXPECT_EQ(parse_json(nested(depth).dump()), nested(depth)) << depth;
   for (const int depth : {34, 40, 1000}) {
     const Json read = parse_json(nested(depth).dump());
@@ -64,12 +64,12 @@ TEST(JsonText, DeepValuesAreLeftOutAndTheRestStays) {
   }
 }
 
-TEST(JsonText, BracketsWithinTextsHaveNoDepth) {
+TEST(JsonText, BracketsWithinTextsDoNotCountAsDepth) {
   const Json json = {{std::string(100, '{'), std::string(100, '[')}, {"\\\"[[", std::string(100, '\\') + "\"[["}};
   EXPECT_EQ(parse_json(json.dump()), json);
 }
 
-TEST(JsonText, TextThatIsNoJsonIsNull) {
+TEST(JsonText, TextThatIsNotJsonIsReadAsNull) {
   for (const char* text : {"", "{", "[1,", "\"", "\"\\", "]]]]", "{\"a\": }", "nan"}) {
     EXPECT_TRUE(parse_json(text).is_null()) << text;
   }

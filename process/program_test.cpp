@@ -32,12 +32,12 @@ Outcome run(std::vector<const char*> arguments, const ProgramBody& body, const A
 
 int nothing(const ProgramOptions&, StopSignal&) { return kExitDone; }
 
-TEST(Program, GivesBackTheBodysCode) {
+TEST(Program, ReturnsTheExitCodeOfItsBody) {
   EXPECT_EQ(run({}, nothing).code, 0);
   EXPECT_EQ(run({}, [](const ProgramOptions&, StopSignal&) { return kExitCheckFailed; }).code, 1);
 }
 
-TEST(Program, BadInputIsOneMessageAndCodeTwo) {
+TEST(Program, BadInputGivesOneMessageAndCodeTwo) {
   const auto outcome = run({}, [](const ProgramOptions&, StopSignal&) -> int {
     throw InputError("mbs.yaml:3: duration_s: must be positive");
   });
@@ -45,14 +45,14 @@ TEST(Program, BadInputIsOneMessageAndCodeTwo) {
   EXPECT_EQ(outcome.error, "tester: mbs.yaml:3: duration_s: must be positive\n");
 }
 
-TEST(Program, OtherFailuresAreCodeThree) {
+TEST(Program, OtherFailuresGiveCodeThree) {
   const auto outcome =
       run({}, [](const ProgramOptions&, StopSignal&) -> int { throw std::runtime_error("disk full"); });
   EXPECT_EQ(outcome.code, kExitProcessFailed);
   EXPECT_EQ(outcome.error, "tester: failed: disk full\n");
 }
 
-TEST(Program, APathThatCannotBeIsCodeTwo) {
+TEST(Program, APathThatCannotExistGivesCodeTwo) {
   const auto look_at = [](const std::filesystem::path& path) {
     return run({}, [&](const ProgramOptions&, StopSignal&) -> int { return std::filesystem::exists(path) ? 0 : 1; });
   };
@@ -60,7 +60,7 @@ TEST(Program, APathThatCannotBeIsCodeTwo) {
   const Outcome too_long = look_at(name);
   EXPECT_EQ(too_long.code, kExitBadInput);
   EXPECT_EQ(too_long.error, "tester: " + name + ": File name too long\n");
-  EXPECT_EQ(look_at("nowhere").code, kExitCheckFailed) << "no error";
+  EXPECT_EQ(look_at("nowhere").code, kExitCheckFailed) << "a missing file is not an error of the path";
   const Outcome full = run({}, [](const ProgramOptions&, StopSignal&) -> int {
     throw std::filesystem::filesystem_error("write", "runs/x", std::make_error_code(std::errc::no_space_on_device));
   });
@@ -86,14 +86,14 @@ TEST(Program, WithoutALauncherTheFolderOfOutMustBeThere) {
   const std::filesystem::path folder = scratch.path(), missing = folder / "none/x", file = folder / "file";
   std::ofstream(file) << "mine";
   EXPECT_EQ(refusal_of_out(folder), "");
-  EXPECT_EQ(refusal_of_out("/dev/null"), "") << "nothing is written";
+  EXPECT_EQ(refusal_of_out("/dev/null"), "") << "with /dev/null, the program writes no files";
   const std::string mend = "; make this folder first, or choose another one";
   EXPECT_EQ(refusal_of_out(missing), "--out " + missing.string() + ": does not exist" + mend);
   EXPECT_EQ(refusal_of_out(file), "--out " + file.string() + ": is no folder" + mend);
   const std::string long_name(300, 'x');
   EXPECT_EQ(refusal_of_out(long_name), "--out " + long_name + ": cannot be looked at (File name too long)" + mend);
   EXPECT_EQ(refusal_of_out(missing, 4, 3), "") << "its launcher makes the folder";
-  EXPECT_EQ(refusal_of_out(missing, -1, 1), "") << "a launcher gets the report";
+  EXPECT_EQ(refusal_of_out(missing, -1, 1), "") << "a launcher gets the report through the pipe";
 }
 
 TEST(Program, WithoutALauncherTheFolderOfOutMustTakeFiles) {
@@ -110,7 +110,7 @@ TEST(Program, WithoutALauncherTheFolderOfOutMustTakeFiles) {
                          ": cannot be written to (Permission denied); make this folder first, or choose another one");
 }
 
-TEST(Program, AWrongCommandLineIsCodeTwoWithAHint) {
+TEST(Program, AWrongCommandLineGivesCodeTwoAndAHint) {
   for (const std::vector<const char*>& arguments :
        std::vector<std::vector<const char*>>{{"--no-such-option"},
                                              {"--seed", "-1"},
@@ -130,7 +130,7 @@ TEST(Program, AWrongCommandLineIsCodeTwoWithAHint) {
   EXPECT_EQ(run({"--log-level", "loud"}, nothing).code, kExitBadInput);
 }
 
-TEST(Program, NoOptionHasAnEmptyValue) {
+TEST(Program, EmptyValuesOfOptionsAreRefused) {
   for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
            {"--uav="}, {"--uav", ""}, {"--check", "--uav=", "jurong"}, {"--faults="}, {"--network="}, {"--check="}}) {
     std::string uav;
@@ -141,11 +141,11 @@ TEST(Program, NoOptionHasAnEmptyValue) {
         << outcome.error;
     EXPECT_NE(outcome.error.find("--help"), std::string::npos) << outcome.error;
   }
-  EXPECT_EQ(run({"--network"}, nothing).code, kExitDone) << "an option whose value may be left out";
+  EXPECT_EQ(run({"--network"}, nothing).code, kExitDone) << "the value of this option may be left out";
   EXPECT_EQ(run({"--network", "--check"}, nothing).code, kExitDone);
 }
 
-TEST(Program, ListsHaveNoEmptyItems) {
+TEST(Program, ListsWithEmptyItemsAreRefused) {
   const auto outcome_of = [](const std::vector<const char*>& arguments) {
     std::vector<std::string> uavs;
     return run(arguments, nothing, [&](CLI::App& app) { app.add_option("--stand-ins", uavs)->delimiter(','); });
@@ -165,7 +165,7 @@ TEST(Program, ListsHaveNoEmptyItems) {
   EXPECT_EQ(outcome_of({"--stand-ins=a,b"}).code, kExitDone);
 }
 
-TEST(Program, DefaultsAndOptions) {
+TEST(Program, ReadsItsOptionsAndTheirDefaults) {
   run({}, [](const ProgramOptions& options, StopSignal&) {
     EXPECT_EQ(options.scenario, "towers");
     EXPECT_EQ(options.dds, "cyclonedds");
@@ -207,7 +207,7 @@ TEST(Program, LogsToStderr) {
   EXPECT_EQ(outcome.error, "[tester] info ready\n");
 }
 
-TEST(Program, WarningsAreKnownAmongTheLinesOfALog) {
+TEST(Program, WarningsAreRecognisedAmongTheLinesOfALog) {
   const auto outcome = run({"--log-level", "info"}, [](const ProgramOptions&, StopSignal&) {
     spdlog::info("ready");
     spdlog::warn("the first");
@@ -247,7 +247,7 @@ TEST(Program, SignalsReachTheBody) {
   }
 }
 
-TEST(StopSignal, WakesAtOnceWhenItComesLate) {
+TEST(StopSignal, CallsTheCallbackAtOnceIfTheStopCameBefore) {
   StopSignal stop;
   stop.stop();
   int calls = 0;

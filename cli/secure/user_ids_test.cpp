@@ -24,7 +24,7 @@ class UserIdsTest : public ::testing::Test {
     return std::any_of(all.begin(), all.end(), [&](pid_t pid) { return belongs_to(pid, user); });
   }
 
-  /// Starts a process of that user, which leaves another one behind in a session of its own. Returns once that one runs.
+  /// Starts a process of that user that leaves another one behind in a session of its own. Returns once that one runs.
   static void leave_behind(uid_t user) {
     int ready[2];
     ASSERT_EQ(::pipe(ready), 0);

@@ -14,18 +14,19 @@
 
 namespace skein::cli {
 
-/// Longer than a process takes to notice the end of another one, and shorter than kPatience: several tests in turn may
-/// wait in vain.
+/// Longer than a process takes to notice the end of another one, and shorter than kPatience, because several tests may
+/// wait in vain one after the other.
 inline constexpr std::chrono::seconds kUntilNoticed{15};
 
-/// Programs started while it lives inherit one end of a pipe; the other end tells when the last of them is gone.
+/// Programs that are started while this object lives inherit one end of a pipe. The other end tells when the last of
+/// them has ended.
 class OpenUntilAllEnded {
  public:
   OpenUntilAllEnded() { EXPECT_EQ(::pipe2(fds_, O_NONBLOCK), 0); }
   ~OpenUntilAllEnded() { ::close(fds_[0]); }
   OpenUntilAllEnded(const OpenUntilAllEnded&) = delete;
   OpenUntilAllEnded& operator=(const OpenUntilAllEnded&) = delete;
-  /// Waits for it. @returns whether it came in time.
+  /// Waits for the end of all these programs. @returns whether they ended in time.
   bool all_ended() {
     ::close(fds_[1]);
     char c;
@@ -36,7 +37,7 @@ class OpenUntilAllEnded {
   int fds_[2];
 };
 
-/// Kills the children of this process, so that no test has to wait for their ends any longer.
+/// Kills the children of this process, so that no later test waits for their ends.
 inline void kill_own_children() {
   for (const pid_t pid : all_processes()) {
     if (parent_of(pid) == ::getpid()) ::kill(pid, SIGKILL);

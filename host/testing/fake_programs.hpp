@@ -31,7 +31,7 @@ done
 [ $check = no ] || exit 0
 )";
 
-/// Two UAVs at a procedural scene; the vehicles are defined in the scenario itself.
+/// A scenario of two UAVs in a procedural scene. It defines its vehicles itself.
 inline constexpr const char* kSmallScenario = R"(
 name: small
 desired_mm_per_pixel: 2.0
@@ -56,7 +56,7 @@ fleet:
 END
 )";
 
-/// While it lives, `skein` finds its programs in a scratch folder. By default each of them exits at once with code 0.
+/// While this object lives, `skein` finds its programs in a scratch folder. By default, each exits at once with code 0.
 class FakePrograms {
  public:
   FakePrograms() {

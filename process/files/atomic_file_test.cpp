@@ -45,7 +45,7 @@ TEST_F(AtomicFile, WritesAndReplaces) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFile, WithoutAFlushReadersSeeTheSame) {
+TEST_F(AtomicFile, AFileWrittenWithoutAFlushReadsTheSame) {
   const fs::path file = folder_ / "result.json";
   write_file_atomically(file, "old", Readers::all, Flush::none);
   write_file_atomically(file, "new", Readers::all, Flush::none);
@@ -62,12 +62,12 @@ TEST_F(AtomicFile, LeavesNothingBehindWhenItFails) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(AtomicFile, AFileThatAnotherProgramWroteIsPutInPlace) {
+TEST_F(AtomicFile, AFileThatAnotherProgramWroteCanReplaceTheFormerOne) {
   const fs::path file = folder_ / "skein.tar.gz", finished = folder_ / "skein.tar.gz.tmp";
   write_file_atomically(file, "old");
   try {
     put_in_place(finished, file);
-    ADD_FAILURE() << "nothing was written";
+    ADD_FAILURE() << "the finished file does not exist, but no error was reported";
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.what(), "cannot write " + file.string() + ": No such file or directory");
   }
@@ -110,14 +110,14 @@ TEST_F(AtomicFile, AMountedFileThatTheUserNamedIsOverwritten) {
       replace_or_overwrite(file, text);
       return read_file_bytes(file, 100) == text ? 0 : 3;
     });
-    if (code == kNoMounts) GTEST_SKIP() << "no mounts here";
+    if (code == kNoMounts) GTEST_SKIP() << "this system does not allow mounts";
     EXPECT_EQ(code, 0);
     EXPECT_EQ(read_file_bytes(file, 100), text);
     EXPECT_EQ(files(), 1u);
   }
 }
 
-TEST_F(AtomicFile, AFullDiskLeavesWhatIsMounted) {
+TEST_F(AtomicFile, AFullDiskLeavesAMountedFileAsItIs) {
   const fs::path file = folder_ / "compose.yaml";
   write_file_atomically(file, "former text");
   const int code = with_mounted(file, [&] {
@@ -130,11 +130,11 @@ TEST_F(AtomicFile, AFullDiskLeavesWhatIsMounted) {
     }
     return 1;
   });
-  if (code == kNoMounts) GTEST_SKIP() << "no mounts here";
+  if (code == kNoMounts) GTEST_SKIP() << "this system does not allow mounts";
   EXPECT_EQ(code, 0);
 }
 
-TEST_F(AtomicFile, AFolderIsNotWrittenInto) {
+TEST_F(AtomicFile, AFolderInThePlaceOfTheFileIsRefused) {
   fs::create_directory(folder_ / "taken");
   EXPECT_THROW(replace_or_overwrite(folder_ / "taken", "x"), std::system_error);
   replace_or_overwrite(folder_ / "new", "x");

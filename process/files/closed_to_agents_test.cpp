@@ -51,8 +51,8 @@ class ClosedToAgents : public testing::Test {
   fs::path dir_;
 };
 
-TEST_F(ClosedToAgents, OnlyAgentsAreKeptOutWhateverTheMode) {
-  if (::geteuid() != 0) GTEST_SKIP() << "only root's agents are other users";
+TEST_F(ClosedToAgents, OnlyAgentsLoseAccessWhateverTheMode) {
+  if (::geteuid() != 0) GTEST_SKIP() << "agents have users of their own only if root starts them";
   for (mode_t bits = 0; bits < 0100; ++bits) {
     for (const bool is_folder : {false, true}) {
       const fs::path path = dir_ / (std::to_string(bits) + (is_folder ? "d" : "f"));
@@ -67,7 +67,7 @@ TEST_F(ClosedToAgents, OnlyAgentsAreKeptOutWhateverTheMode) {
       const bool group_differs = bits >> 3 != (bits & 07);
       EXPECT_EQ(close_to_agents(path), (bits & 07) != 0) << std::oct << bits;
       EXPECT_FALSE(opens(path, {kAgentsGroup})) << std::oct << bits;
-      EXPECT_FALSE(close_to_agents(path)) << "closed already";
+      EXPECT_FALSE(close_to_agents(path)) << "the path is closed already";
       if (group_differs) {
         EXPECT_EQ(opens(path, {kProject}), project_could) << std::oct << bits;
       } else {
@@ -77,7 +77,7 @@ TEST_F(ClosedToAgents, OnlyAgentsAreKeptOutWhateverTheMode) {
   }
 }
 
-TEST_F(ClosedToAgents, LinksAndWhatIsMissingStayAsTheyAre) {
+TEST_F(ClosedToAgents, LinksAndMissingPathsStayAsTheyAre) {
   const fs::path file = dir_ / "file", link = dir_ / "link";
   std::ofstream(file) << "truth";
   ::chmod(file.c_str(), 0644);
@@ -85,7 +85,7 @@ TEST_F(ClosedToAgents, LinksAndWhatIsMissingStayAsTheyAre) {
   EXPECT_FALSE(close_to_agents(link));
   EXPECT_FALSE(close_to_agents(dir_ / "nothing"));
   EXPECT_EQ(mode_of(file), 0644u);
-  EXPECT_EQ(close_to_agents(file), ::geteuid() == 0) << "any other user's agents are that user";
+  EXPECT_EQ(close_to_agents(file), ::geteuid() == 0) << "agents have users of their own only if root starts them";
 }
 
 }  // namespace

@@ -35,12 +35,12 @@ std::optional<std::string> complaint_with_room(rlim_t bytes, const fs::path& fil
   return {};
 }
 
-TEST_F(PrivateFile, TellsTheSystemsReasonWhenItIsWrittenInPart) {
+TEST_F(PrivateFile, AnIncompleteWriteReportsTheSystemsReason) {
   const std::string text(64, 'a');
   for (const rlim_t room : {0U, 1U, 63U}) {
-    errno = ENOENT;  // of another call, long ago
+    errno = ENOENT;  // an earlier call has left this value
     EXPECT_EQ(complaint_with_room(room, file_, text), file_.string() + ": " + std::strerror(EFBIG)) << room;
-    EXPECT_FALSE(fs::exists(file_)) << "a part of a key, with " << room << " bytes of room";
+    EXPECT_FALSE(fs::exists(file_)) << "a part of a key is left, with " << room << " bytes of room";
   }
   EXPECT_EQ(complaint_with_room(64, file_, text), std::nullopt);
   EXPECT_EQ(fs::file_size(file_), 64U);
@@ -67,7 +67,7 @@ TEST_F(PrivateFile, ReplacesALinkAndDoesNotFollowIt) {
   EXPECT_EQ(read_file_bytes(mine, 1024), "mine");
 }
 
-TEST_F(PrivateFile, InAFolderThatIsMissingIsAnError) {
+TEST_F(PrivateFile, CannotBeWrittenToAMissingFolder) {
   EXPECT_THROW(write_private_file(scratch_.path() / "missing" / "key", "secret"), std::system_error);
 }
 

@@ -15,13 +15,13 @@ namespace skein {
 namespace {
 
 constexpr int kWentOn = 0;
-constexpr int kForgotten = 1;  ///< It would have waited for ever.
+constexpr int kForgotten = 1;  ///< the process would have waited for ever
 constexpr int kLooksTold = 3;
 
 /// A process that waits for a debugger.
 class Waiting {
  public:
-  /// Returns when it waits.
+  /// Starts the process, and returns when it waits.
   Waiting() {
     int looked[2];
     EXPECT_EQ(::pipe(looked), 0);
@@ -43,7 +43,7 @@ class Waiting {
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
 
-  /// Returns when it has looked for a debugger once more; kLooksTold times in all.
+  /// Returns when the process has looked for a debugger once more. Works kLooksTold times in all.
   void see_a_look() const {
     char letter = 0;
     EXPECT_EQ(::read(looks_, &letter, 1), 1);
@@ -60,7 +60,7 @@ class Waiting {
   int looks_ = -1;
 };
 
-/// Attaches to all threads, as gdb does, and leaves again. False where the kernel does not allow it.
+/// Attaches to all threads of a process, as gdb does, and detaches. @returns false if the kernel does not allow it.
 bool look_at(pid_t process) {
   std::vector<pid_t> threads;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
@@ -73,7 +73,7 @@ bool look_at(pid_t process) {
   return !threads.empty();
 }
 
-TEST(DebuggerWait, GoesOnWhenADebuggerHasComeAndGoneAtAnyInstant) {
+TEST(DebuggerWait, EndsWhenADebuggerHasAttachedAndDetachedAtAnyInstant) {
   std::mt19937 random(std::random_device{}());
   std::uniform_int_distribution<int> looks(0, 2), calls(0, 100'000);  // some milliseconds of system calls
   for (int i = 0; i < 25; ++i) {
@@ -90,13 +90,13 @@ TEST(DebuggerWait, GoesOnWhenADebuggerHasComeAndGoneAtAnyInstant) {
   }
 }
 
-TEST(DebuggerWait, GoesOnAtSigcont) {
+TEST(DebuggerWait, EndsAtSigcont) {
   const Waiting waiting;
   ::kill(waiting.process(), SIGCONT);
   EXPECT_EQ(waiting.end(), kWentOn);
 }
 
-TEST(DebuggerWait, EndsWhenItIsTold) {
+TEST(DebuggerWait, EndsWhenTheCallerSaysSo) {
   int looks = 0;
   wait_for_debugger([&] { return ++looks == 3; });
   EXPECT_EQ(looks, 3);

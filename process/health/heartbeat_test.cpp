@@ -21,7 +21,7 @@ class HeartbeatTest : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(HeartbeatTest, TheFileIsThereFromTheFirstBeatOn) {
+TEST_F(HeartbeatTest, TheFirstBeatCreatesTheFile) {
   const fs::path file = folder_ / "alive";
   Heartbeat heart(file);
   EXPECT_FALSE(fs::exists(file));
@@ -29,7 +29,7 @@ TEST_F(HeartbeatTest, TheFileIsThereFromTheFirstBeatOn) {
   EXPECT_TRUE(fs::is_regular_file(file));
 }
 
-TEST_F(HeartbeatTest, AnOldFileIsTouchedAndKeepsWhatIsInIt) {
+TEST_F(HeartbeatTest, ABeatUpdatesTheTimeOfAnExistingFileAndKeepsItsText) {
   const fs::path file = folder_ / "alive";
   std::ofstream(file) << "text";
   const auto old = fs::last_write_time(file) - std::chrono::hours(1);
@@ -39,8 +39,8 @@ TEST_F(HeartbeatTest, AnOldFileIsTouchedAndKeepsWhatIsInIt) {
   EXPECT_EQ(fs::file_size(file), 4u);
 }
 
-// Far more of them than one every two seconds.
-TEST_F(HeartbeatTest, MostBeatsCostNothing) {
+// The program calls beat() far more often than every two seconds.
+TEST_F(HeartbeatTest, MostBeatsDoNotTouchTheFile) {
   const fs::path file = folder_ / "alive";
   Heartbeat heart(file);
   int touched = 0;
@@ -55,7 +55,7 @@ TEST_F(HeartbeatTest, MostBeatsCostNothing) {
   EXPECT_LE(touched, 1 + passed_s / 2.0);
 }
 
-TEST_F(HeartbeatTest, AFileThatCannotBeWrittenIsNoError) {
+TEST_F(HeartbeatTest, AFileThatCannotBeWrittenIsNotAnError) {
   for (const fs::path& file : {fs::path(), folder_ / "none" / "alive", folder_, fs::path("/proc/alive")}) {
     Heartbeat heart(file);
     EXPECT_NO_THROW(heart.beat()) << file;

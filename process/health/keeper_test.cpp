@@ -17,14 +17,14 @@ namespace {
 
 constexpr int kNotPermitted = 77;
 
-/// Seen by all processes.
+/// Memory that all processes of a test share.
 struct Shared {
   std::atomic<int> lives{0};
   std::atomic<pid_t> worker{0};
-  std::atomic<bool> ready{false};  ///< for a signal
+  std::atomic<bool> ready{false};  ///< the program waits for a signal
 };
 
-/// The keeper as any process, and as the first of a PID namespace, as in a container.
+/// The parameter: whether the keeper is the first process of a PID namespace, as in a container.
 class Keeper : public testing::TestWithParam<bool> {
  protected:
   Keeper() {
@@ -33,8 +33,8 @@ class Keeper : public testing::TestWithParam<bool> {
   }
   ~Keeper() override { ::munmap(shared_, sizeof(Shared)); }
 
-  /// Starts a keeper of `work`, which gets the number of its life, from 1, and returns an exit code.
-  /// @param meanwhile  gets the keeper's process.  @returns the keeper's status as wait() tells it.
+  /// Starts a keeper whose program is `work`. It gets the number of its life, from 1, and returns an exit code.
+  /// @param meanwhile  called with the keeper's process id. @returns the keeper's exit code, or 200 + its signal.
   int keep(const std::function<int(int)>& work, const std::function<void(pid_t)>& meanwhile = {}) {
     const pid_t parent = ::fork();
     if (parent == 0) {
@@ -56,7 +56,7 @@ class Keeper : public testing::TestWithParam<bool> {
     ::waitpid(parent, &status, 0);
     return WEXITSTATUS(status);
   }
-  /// The keeper is sent a signal; `then` is what its program does about it.
+  /// Sends a signal to the keeper. Its program calls `then` with the signal that it gets.
   int keep_and_send(int signal, const std::function<int(int)>& then) {
     shared_->lives = 0;
     const auto work = [&](int) {
@@ -81,9 +81,9 @@ class Keeper : public testing::TestWithParam<bool> {
 };
 
 #define SKIP_WITHOUT_RIGHTS(status) \
-  if ((status) == kNotPermitted) GTEST_SKIP() << "a PID namespace takes root"
+  if ((status) == kNotPermitted) GTEST_SKIP() << "only root can create a PID namespace"
 
-TEST_P(Keeper, StartsAgainWhatWasKilledAndPassesOnHowItEnds) {
+TEST_P(Keeper, RestartsAKilledProgramAndReturnsItsExitCode) {
   for (const int code : {0, 2, 3}) {
     shared_->lives = 0;
     const int status = keep([&](int life) {
@@ -96,7 +96,7 @@ TEST_P(Keeper, StartsAgainWhatWasKilledAndPassesOnHowItEnds) {
   }
 }
 
-TEST_P(Keeper, ACrashIsTheEnd) {
+TEST_P(Keeper, ACrashedProgramIsNotRestarted) {
   const int status = keep([](int) {
     std::signal(SIGSEGV, SIG_DFL);
     return std::raise(SIGSEGV);
@@ -114,14 +114,14 @@ TEST_P(Keeper, ARequestToEndReachesTheProgram) {
   }
 }
 
-TEST_P(Keeper, NothingStartsAgainThatWasAskedToEnd) {
+TEST_P(Keeper, AProgramThatWasAskedToEndIsNotRestarted) {
   const int status = keep_and_send(SIGTERM, [](int) { return std::raise(SIGKILL); });
   SKIP_WITHOUT_RIGHTS(status);
   EXPECT_EQ(status, 128 + SIGKILL);
   EXPECT_EQ(shared_->lives, 1);
 }
 
-TEST_P(Keeper, KillingItKillsTheProgram) {
+TEST_P(Keeper, KillingTheKeeperKillsTheProgram) {
   const int status = keep(
       [&](int) {
         shared_->ready = true;
@@ -135,7 +135,7 @@ TEST_P(Keeper, KillingItKillsTheProgram) {
       });
   SKIP_WITHOUT_RIGHTS(status);
   EXPECT_EQ(status, 200 + SIGKILL);
-  if (GetParam()) return;  // with the first process of a namespace, the kernel ends all others
+  if (GetParam()) return;  // the kernel ends the namespace with its first process
   while (::kill(shared_->worker, 0) == 0) ::sched_yield();
 }
 

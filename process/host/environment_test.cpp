@@ -36,7 +36,7 @@ class With {
   std::map<std::string, std::optional<std::string>> before_;
 };
 
-/// By name; each name must be there once.
+/// The values of the variables, by name. Expects each name only once.
 Variables by_name(const std::vector<std::string>& entries) {
   Variables variables;
   for (const std::string& entry : entries) {
@@ -61,7 +61,7 @@ TEST(Environment, SomeVariablesAreSetAndAllOthersStay) {
   EXPECT_EQ(by_name(environment_with({})), mine());
 }
 
-TEST(Environment, AFleetGetsWhatCannotChangeItsResultAndPins) {
+TEST(Environment, AFleetInheritsOnlyVariablesThatCannotChangeItsResultAndGetsPins) {
   const With set({{"SKEIN_TEST_KEPT", "x"},
                   {"RMW_IMPLEMENTATION", "rmw_x"},
                   {"CYCLONEDDS_URI", "<x/>"},
@@ -76,19 +76,19 @@ TEST(Environment, AFleetGetsWhatCannotChangeItsResultAndPins) {
   for (const std::string& name : ignored_variables()) expected.erase(name);
   for (const auto& [name, value] : pinned_variables(false)) expected[name] = value;
   EXPECT_EQ(by_name(fleet_environment(false)), expected);
-  EXPECT_EQ(expected.at("RMW_IMPLEMENTATION"), "rmw_x") << "a ROS 2 node of the user's needs it";
+  EXPECT_EQ(expected.at("RMW_IMPLEMENTATION"), "rmw_x") << "ROS 2 nodes of the user need it";
   EXPECT_EQ(expected.at("LC_ALL"), "C");
   for (const char* name : {"CYCLONEDDS_URI", "FASTDDS_STATISTICS", "ROS_DOMAIN_ID", "SKEIN_DOMAIN", "SKEIN_RUN"}) {
     EXPECT_FALSE(expected.contains(name)) << name;
   }
-  // The launcher tells a program its own domain and run, under the names that it takes out.
+  // The launcher removes these variables from the environment, but sets them to a program's own domain and run.
   const Variables told = by_name(fleet_environment(false, {{"SKEIN_RUN", "mine"}, {"ROS_DOMAIN_ID", "9"}}));
   EXPECT_EQ(told.at("SKEIN_RUN"), "mine");
   EXPECT_EQ(told.at("ROS_DOMAIN_ID"), "9");
   EXPECT_FALSE(told.contains("SKEIN_DOMAIN"));
 }
 
-TEST(Environment, IgnoredVariablesAreListedInOrder) {
+TEST(Environment, IgnoredVariablesAreListedInAlphabeticalOrder) {
   // The environment has them in the order in which they were set.
   const With first({{"ROS_LOCALHOST_ONLY", "1"}, {"SKEIN_TEST_KEPT", "x"}});
   const With then(Variables{{"CYCLONEDDS_URI", "x"}});
@@ -122,7 +122,7 @@ TEST(Environment, PythonIsTheSameOnEveryMachineUnlessNativeIsWanted) {
     }
   }
   for (const auto& [name, value] : pinned_variables(false)) {
-    EXPECT_EQ(value.find(' '), std::string::npos) << name << ": commands that are printed have it without quotes";
+    EXPECT_EQ(value.find(' '), std::string::npos) << name << ": printed commands contain the value without quotes";
   }
 }
 

@@ -9,7 +9,7 @@
 namespace skein {
 namespace {
 
-/// One that no other test has, nor this one when it runs twice at once.
+/// A name that no other test uses, and that differs if this test runs twice at once.
 std::string own_name() { return "skein-host-lock-test-" + std::to_string(::getpid()); }
 
 TEST(HostLock, OnlyOneHolderTakesALockAtATime) {
@@ -33,7 +33,7 @@ TEST(HostLock, TheHolderIsKnown) {
   EXPECT_EQ(HostLock::holder(own_name()), ::getpid());
 }
 
-TEST(HostLock, AKilledHolderGivesItBack) {
+TEST(HostLock, TheLockOfAKilledHolderIsFree) {
   const std::string name = own_name();
   int ready[2];
   ASSERT_EQ(::pipe(ready), 0);
@@ -55,9 +55,7 @@ TEST(HostLock, AKilledHolderGivesItBack) {
   ::close(ready[1]);
 }
 
-TEST(HostLock, ANameThatDoesNotFitIsAnError) {
-  EXPECT_THROW(HostLock::try_take(std::string(200, 'x')), std::exception);
-}
+TEST(HostLock, ANameThatIsTooLongIsAnError) { EXPECT_THROW(HostLock::try_take(std::string(200, 'x')), std::exception); }
 
 }  // namespace
 }  // namespace skein

@@ -11,7 +11,7 @@
 namespace skein {
 namespace {
 
-TEST(OpenFiles, AFailureForWantOfThemTellsTheLimit) {
+TEST(OpenFiles, AFailureForLackOfDescriptorsNamesTheLimit) {
   const LimitedOpenFiles low(64);
   const auto limit = open_files_limit();
   const std::string hint = open_files_hint({EMFILE, std::generic_category()});
@@ -25,7 +25,7 @@ TEST(OpenFiles, AFailureForWantOfThemTellsTheLimit) {
 TEST(OpenFiles, TheLimitIsRaisedAsFarAsTheSystemPermits) {
   const LimitedOpenFiles low(64);
   raise_open_files_limit(32);
-  EXPECT_EQ(open_files_limit(), 64U) << "never lowered";
+  EXPECT_EQ(open_files_limit(), 64U) << "a limit is never lowered";
   raise_open_files_limit(100);
   EXPECT_EQ(open_files_limit(), 100U);
   EXPECT_EQ(done_with_open_files(80,
@@ -36,7 +36,7 @@ TEST(OpenFiles, TheLimitIsRaisedAsFarAsTheSystemPermits) {
             "80");
 }
 
-TEST(OpenFiles, ALimitIsJudgedByWhatIsNeeded) {
+TEST(OpenFiles, ALimitIsComparedWithTheNeed) {
   constexpr OpenFilesNeed kNeed{50, 60};
   for (const std::uint64_t limit : {60U, 1024U}) EXPECT_EQ(judge_open_files_limit("a fleet", kNeed, limit), "");
   const std::string warning = judge_open_files_limit("a fleet", kNeed, 50);
@@ -45,7 +45,7 @@ TEST(OpenFiles, ALimitIsJudgedByWhatIsNeeded) {
   EXPECT_THROW(judge_open_files_limit("a fleet", kNeed, 49), InputError);
 }
 
-TEST(OpenFiles, AProgramThatNeedsThemGetsThemOrIsRefused) {
+TEST(OpenFiles, AProgramGetsTheDescriptorsThatItNeedsOrIsRefused) {
   constexpr OpenFilesNeed kNeed{50, 60};
   const LimitedOpenFiles low(40);
   EXPECT_EQ(done_with_open_files(55, [&] { return provide_open_files("it", kNeed); }).find("a process may have 55"),
@@ -57,7 +57,7 @@ TEST(OpenFiles, AProgramThatNeedsThemGetsThemOrIsRefused) {
   EXPECT_EQ(open_files_limit(), 60U);
 }
 
-// As measured: the server of 5 UAVs had 64 open files over Cyclone DDS and 74 over Fast DDS, the station with a page 31
+// Measured: the server of 5 UAVs had 64 open files over Cyclone DDS and 74 over Fast DDS, the station with a page 31
 // and 36, an agent 16 and 20.
 TEST(OpenFiles, TheNeedOverDdsIsAtLeastWhatWasMeasured) {
   EXPECT_GE(open_files_over_dds(7, false).least, 64U);

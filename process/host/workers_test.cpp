@@ -29,13 +29,13 @@ TEST_P(WorkersTest, EachPieceIsDoneOnceWhateverItsLength) {
     const std::size_t count = random.bits() % 40;
     std::vector<int> lengths(count);
     for (int& length : lengths) length = static_cast<int>(random.bits() % 3000);
-    std::vector<std::uint64_t> done(count);  // written without a lock: no other thread has a piece
+    std::vector<std::uint64_t> done(count);  // written without a lock, because each piece has one thread
     workers.run(count, [&](std::size_t i) { done[i] += mixed(i, lengths[i]); });
     for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(done[i], mixed(i, lengths[i])) << job << " " << i;
   }
 }
 
-TEST_P(WorkersTest, TheFirstFailureLeaves) {
+TEST_P(WorkersTest, RunThrowsTheFailureOfTheFirstPiece) {
   Workers workers(GetParam());
   std::atomic<int> at_work = 0;
   try {
@@ -52,7 +52,7 @@ TEST_P(WorkersTest, TheFirstFailureLeaves) {
   EXPECT_EQ(at_work, 0);
   int again = 0;
   workers.run(1, [&](std::size_t) { ++again; });
-  EXPECT_EQ(again, 1) << "it goes on afterwards";
+  EXPECT_EQ(again, 1) << "the workers can be used again after a failure";
 }
 
 TEST_P(WorkersTest, WorkWithinWorkStaysOnItsThread) {
@@ -64,7 +64,7 @@ TEST_P(WorkersTest, WorkWithinWorkStaysOnItsThread) {
   EXPECT_EQ(Workers::here(), 0);
 }
 
-TEST_P(WorkersTest, TimeOfHelpersIsTheCallers) {
+TEST_P(WorkersTest, TheCpuTimeOfHelpersCountsForTheCaller) {
   Workers workers(GetParam());
   constexpr double kPiece_s = 0.01;
   const double before_s = thread_cpu_s();

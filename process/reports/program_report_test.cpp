@@ -37,14 +37,14 @@ TEST_F(ProgramReport, GoesToTheLauncherAndToAFile) {
   EXPECT_EQ(written, (Json{{"score", 7}}));
 }
 
-TEST_F(ProgramReport, NeedNotBeUtf8) {
+TEST_F(ProgramReport, ReplacesInvalidUtf8InValues) {
   StatusPipe status(pipe_[1]);
   hand_in_report({{"name", "caf\xe9"}}, file_, status);
   EXPECT_EQ(line()["report"]["name"], "caf\xef\xbf\xbd");
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(file_))["name"], "caf\xef\xbf\xbd");
 }
 
-TEST_F(ProgramReport, ReachesTheLauncherWhereItCannotBeWritten) {
+TEST_F(ProgramReport, ReachesTheLauncherAlsoIfItsFileCannotBeWritten) {
   StatusPipe status(pipe_[1]);
   hand_in_report({{"score", 7}, {"unwritten", {"x"}}}, file_ / "below", status);
   const nlohmann::json report = line()["report"];
@@ -53,7 +53,7 @@ TEST_F(ProgramReport, ReachesTheLauncherWhereItCannotBeWritten) {
   EXPECT_NE(report["unwritten"][1].get<std::string>().find(file_.string()), std::string::npos);
 }
 
-TEST_F(ProgramReport, MayHaveTextsThatAreNoUtf8) {
+TEST_F(ProgramReport, ReplacesInvalidUtf8InLists) {
   StatusPipe status(pipe_[1]);
   hand_in_report({{"no_way", {"no way: \xff"}}}, file_, status);
   const nlohmann::json told = line()["report"];
@@ -63,7 +63,7 @@ TEST_F(ProgramReport, MayHaveTextsThatAreNoUtf8) {
   EXPECT_EQ(written["no_way"][0], "no way: \xef\xbf\xbd");
 }
 
-TEST_F(ProgramReport, WithoutALauncherItIsAnErrorNotASilentLoss) {
+TEST_F(ProgramReport, WithoutALauncherAFileThatCannotBeWrittenIsAnError) {
   StatusPipe no_launcher(-1);
   EXPECT_THROW(hand_in_report({{"score", 7}}, file_ / "below", no_launcher), std::runtime_error);
 }

@@ -1,4 +1,5 @@
-// The reports of programs are a contract. Reading returns whole ones unchanged, and the intact values of damaged ones.
+// The format of the programs' reports is a contract. A whole report is read back unchanged. Of a damaged report, the
+// intact values are read.
 #include "process/reports/reports.hpp"
 
 #include <gtest/gtest.h>
@@ -50,7 +51,7 @@ const char* const kAgent = R"({
   "waited_s": 12.5,
   "waits": [{"from_s": 1.5, "uav": "alpha", "until_s": 3.0}]})";
 
-/// Calls `check` with the place of each value below this one.
+/// Calls `check` with the place of each value in `json`.
 void for_each_place(const Json& json, const Json::json_pointer& here, const auto& check) {
   if (!here.empty()) check(here);
   if (!json.is_structured()) return;
@@ -79,7 +80,7 @@ void check_report(const char* text) {
       damaged[place] = odd;
       EXPECT_NO_THROW(struct_of<Report>(damaged)) << place;
     }
-    if (place.to_string().find("/position/") != std::string::npos) return;  // two numbers are not a place
+    if (place.to_string().find("/position/") != std::string::npos) return;  // a position of two numbers is not read
     Json lacking = whole;
     erase(lacking, place);
     const Json read = json_of(struct_of<Report>(lacking));
@@ -90,10 +91,10 @@ void check_report(const char* text) {
   });
 }
 
-TEST(Reports, OfTheServer) { check_report<SimServerReport>(kSimServer); }
-TEST(Reports, OfTheStation) { check_report<StationReport>(kStation); }
-TEST(Reports, OfTheRouter) { check_report<RouterReport>(kRouter); }
-TEST(Reports, OfAnAgent) { check_report<AgentReport>(kAgent); }
+TEST(Reports, TheServersReportIsReadBack) { check_report<SimServerReport>(kSimServer); }
+TEST(Reports, TheStationsReportIsReadBack) { check_report<StationReport>(kStation); }
+TEST(Reports, TheRoutersReportIsReadBack) { check_report<RouterReport>(kRouter); }
+TEST(Reports, AnAgentsReportIsReadBack) { check_report<AgentReport>(kAgent); }
 
 TEST(Reports, KeysThatAnEntryLacksStayAbsent) {
   const auto report = struct_of<SimServerReport>(parse_json(R"({"collisions": [{"uav": "alpha"}], "uavs": [{}]})"));
@@ -102,7 +103,7 @@ TEST(Reports, KeysThatAnEntryLacksStayAbsent) {
   EXPECT_EQ(json_of(report.timing), Json::object());
 }
 
-TEST(Reports, TheListOfStrategies) {
+TEST(Reports, TheListOfStrategiesIsReadBack) {
   const StrategyList list{{"hover", "patrol"}, {"star"}};
   const std::string text = json_of(list).dump();
   EXPECT_EQ(text, R"({"planners":["hover","patrol"],"ground_programs":["star"]})");

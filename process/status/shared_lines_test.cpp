@@ -7,7 +7,7 @@
 namespace skein::shared_lines {
 namespace {
 
-TEST(SharedLines, NewsComeBackAsTheyWere) {
+TEST(SharedLines, NewsAreReadBackUnchanged) {
   const auto said = read_news(said_by("station", {{"type", "tally"}, {"points", 3}}).dump());
   ASSERT_TRUE(said && std::holds_alternative<Said>(*said));
   EXPECT_EQ(std::get<Said>(*said).program, "station");
@@ -23,7 +23,7 @@ TEST(SharedLines, NewsComeBackAsTheyWere) {
   EXPECT_EQ(std::get<Stopped>(*stopped).program, "comm_router");
 }
 
-TEST(SharedLines, OrdersComeBackAsTheyWere) {
+TEST(SharedLines, OrdersAreReadBackUnchanged) {
   const Start start{"sim_server", {"/bin/sim server", "--out", "a \"folder\"\n"}, "/tmp/a b.log", true};
   const auto started = read_order(text_of(start));
   ASSERT_TRUE(started && std::holds_alternative<Start>(*started));
@@ -41,7 +41,7 @@ TEST(SharedLines, OrdersComeBackAsTheyWere) {
 }
 
 // A planner in the process may write anything to any descriptor.
-TEST(SharedLines, OtherTextIsNone) {
+TEST(SharedLines, OtherTextIsNeitherNewsNorAnOrder) {
   for (const char* text : {"", "{}", "[]", "null", "{\"ended\": 3}", "{\"said_by\": null, \"line\": 1}",
                            "{\"type\": \"ended\"}", "ended", "{\"start\": {}}"}) {
     EXPECT_FALSE(read_news(text)) << text;

@@ -9,7 +9,7 @@ namespace {
 
 using status::Line;
 
-/// One of each kind, as it stands on the pipe.
+/// A message of each kind, with its text on the pipe.
 const std::vector<std::pair<Line, std::string>>& examples() {
   static const std::vector<std::pair<Line, std::string>> kExamples = {
       {status::Progress{.time_s = 12.5,
@@ -38,7 +38,7 @@ const std::vector<std::pair<Line, std::string>>& examples() {
   return kExamples;
 }
 
-TEST(StatusLines, ThereIsAnExampleOfEach) {
+TEST(StatusLines, EachKindOfLineHasAnExample) {
   ASSERT_EQ(examples().size(), std::variant_size_v<Line>);
   for (std::size_t i = 0; i < examples().size(); ++i) EXPECT_EQ(examples()[i].first.index(), i);
 }
@@ -64,8 +64,8 @@ TEST(StatusLines, OtherLinesAreNotStatusLines) {
   EXPECT_FALSE(status::read_line(std::string(200000, '[') + std::string(200000, ']')));
 }
 
-/// Each example with each of its values missing, or replaced by something else.
-TEST(StatusLines, DamagedOnesAreWhatIsLeftOfThem) {
+/// Reads each example without each of its values, and with each of them replaced by other values.
+TEST(StatusLines, DamagedLinesAreReadWithTheirIntactValues) {
   const std::vector<Json> odd = {nullptr, true, -1, 1e300, "odd", Json::array({3, "x"}), Json::object({{"x", 1}})};
   for (const auto& [line, text] : examples()) {
     const Json whole = parse_json(text);

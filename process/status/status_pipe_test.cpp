@@ -68,7 +68,7 @@ TEST(StatusPipe, SurvivesAReaderThatHasGone) {
   status.send_surely({{"step", 2}});
 }
 
-TEST(StatusPipe, DropsWholeLinesWhenTheReaderIsSlowButNotTheSureOnes) {
+TEST(StatusPipe, DropsWholeLinesWhenTheReaderIsSlowExceptImportantOnes) {
   Pipe pipe;
   StatusPipe status(pipe.writing());
   const std::string filling(3000, 'x');
@@ -85,7 +85,7 @@ TEST(StatusPipe, DropsWholeLinesWhenTheReaderIsSlowButNotTheSureOnes) {
   EXPECT_EQ(messages.back()["result"], 42);
 }
 
-TEST(ControlPipe, HandsOverLinesAndTheEnd) {
+TEST(ControlPipe, ReportsLinesAndTheEndOfTheInput) {
   Pipe pipe;
   std::mutex mutex;
   std::condition_variable changed;
@@ -110,6 +110,7 @@ TEST(ControlPipe, HandsOverLinesAndTheEnd) {
   EXPECT_EQ(lines, (std::vector<std::string>{"stop", "", "{\"kill\": \"jurong\"}"}));
 }
 
+// If the destructors waited for the end of the input, this test would hang.
 TEST(ControlPipe, EndsWhileTheOtherEndIsOpen) {
   Pipe pipe;
   const ControlPipe control(pipe.reading(), [](const std::string&) {});

@@ -31,14 +31,14 @@ TEST(TurnPage, NamesTheHolderOfTheTurnInEachSeat) {
   EXPECT_EQ(launchers.holders(), (Names{"uav_agent-b"}));
 }
 
-TEST(TurnPage, TheProgramThatGaveTheReasonIsTheOne) {
+TEST(TurnPage, TheProgramThatGaveAReasonIsReportedAlone) {
   TurnPage launchers;
   TurnPage page(launchers.path());
   page.enter(1, "uav_agent-a");
   page.enter(2, "uav_agent-b");
   page.give_reason("closed what is not its own");
   EXPECT_EQ(launchers.reason(), "closed what is not its own");
-  EXPECT_EQ(launchers.holders(), (Names{"uav_agent-a", "uav_agent-b"})) << "one of them";
+  EXPECT_EQ(launchers.holders(), (Names{"uav_agent-a", "uav_agent-b"})) << "either program may have given this reason";
   page.give_reason("says so itself", "uav_agent-b");
   EXPECT_EQ(launchers.holders(), (Names{"uav_agent-b"}));
   launchers.clear();
@@ -50,10 +50,10 @@ std::ptrdiff_t open_files() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
 }
 
-// The launcher makes a page for each process of a fleet: what fails again and again must not use up its descriptors.
+// The launcher makes a page for each process of a fleet, so pages that cannot be made must not use up its descriptors.
 TEST(TurnPage, APageThatCannotBeMadeLeavesNoFileOpen) {
   const std::ptrdiff_t before = open_files();
-  EXPECT_THROW(TurnPage("/dev/null"), std::system_error) << "it cannot be mapped";
+  EXPECT_THROW(TurnPage("/dev/null"), std::system_error) << "/dev/null cannot be mapped";
   EXPECT_THROW(TurnPage("/no/such/page"), std::system_error);
   EXPECT_EQ(open_files(), before);
   rlimit usual{};
@@ -61,7 +61,7 @@ TEST(TurnPage, APageThatCannotBeMadeLeavesNoFileOpen) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit none{0, usual.rlim_max};
   ::setrlimit(RLIMIT_FSIZE, &none);
-  EXPECT_THROW(TurnPage(), std::system_error) << "it cannot get its size";
+  EXPECT_THROW(TurnPage(), std::system_error) << "the file of the page cannot grow to its size";
   ::setrlimit(RLIMIT_FSIZE, &usual);
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(open_files(), before);
