@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Numbers of rmw's enumerations, as rosbag2 of Humble has them.
+// Values of enumerations of rmw, as rosbag2 of ROS 2 Humble writes them.
 constexpr int kTransientLocal = 1, kVolatile = 2;
 
-TEST(Bag, OffersATopicAsItIsOnTheWire) {
+TEST(Bag, OffersATopicWithTheQosThatItHasOnTheWire) {
   const auto expect = [](const topics::TopicInfo& info, const std::string& topic) {
     const YAML::Node qos = YAML::Load(offered_qos_profiles(topic));
     ASSERT_EQ(qos.size(), 1U) << topic;
@@ -28,7 +28,7 @@ TEST(Bag, OffersATopicAsItIsOnTheWire) {
   };
   for (const topics::TopicInfo& info : topics::viewer_topics()) expect(info, std::string(info.pattern));
   for (const topics::TopicInfo& info : topics::uav_topics()) {
-    if (info.pattern == topics::kBoundingBoxes.pattern) continue;  // it is recorded once, of the station's domain
+    if (info.pattern == topics::kBoundingBoxes.pattern) continue;  // it is recorded only in the station's domain
     const std::string topic = topics::wire(info, "jurong").name.substr(2);
     expect(info, topic.starts_with("/jurong/") ? topic : "/jurong" + topic);
   }
@@ -58,7 +58,7 @@ TEST(Bag, MetadataCountsWhatAPlayerCanPublish) {
   EXPECT_EQ(bag["starting_time"]["nanoseconds_since_epoch"].as<long long>(), 50'000'000);
   EXPECT_EQ(bag["duration"]["nanoseconds"].as<long long>(), 950'000'000);
   const YAML::Node topics = bag["topics_with_message_count"];
-  ASSERT_EQ(topics.size(), 2U) << "that of an unknown type is left out";
+  ASSERT_EQ(topics.size(), 2U) << "a topic of an unknown type is left out";
   EXPECT_EQ(topics[0]["topic_metadata"]["name"].as<std::string>(), "/jurong/debug/x");
   EXPECT_EQ(topics[0]["message_count"].as<int>(), 2);
   EXPECT_EQ(topics[1]["topic_metadata"]["type"].as<std::string>(), "tf2_msgs/msg/TFMessage");

@@ -30,7 +30,7 @@ TEST(RecordingChoice, AWiderScopeLosesNothing) {
   }
 }
 
-TEST(RecordingChoice, CommandsAreAlwaysWholeAndCloudsOnlyOnRequest) {
+TEST(RecordingChoice, AllCommandsAreRecordedAndCloudsOnlyOnRequest) {
   for (const topics::TopicInfo& info : topics::uav_topics()) {
     const std::string topic = ros_name(info, "jurong");
     if (info.direction == topics::Direction::from_agent) {
@@ -55,7 +55,7 @@ TEST(RecordingChoice, DomainsDoNotShareANameInTheRecording) {
   EXPECT_EQ(recorded_topic("", "/skein/ledger"), "/skein/ledger");
 }
 
-TEST(RecordingChoice, KnowsItsNames) {
+TEST(RecordingChoice, ReadsTheNamesOfScopes) {
   EXPECT_EQ(scope_of("clouds"), Scope::clouds);
   EXPECT_THROW(scope_of("everything"), InputError);
 }

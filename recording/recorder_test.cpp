@@ -19,7 +19,7 @@ class RecorderTest : public mcap::McapFiles {
   }
 };
 
-TEST_F(RecorderTest, HearsPosesTwiceASecondAndCommandsAlways) {
+TEST_F(RecorderTest, RecordsPosesTwiceASecondAndAllCommands) {
   {
     Recorder recorder(folder_, programs::kSimServer, Scope::run);
     const bus::Ear pose = recorder.ear("jurong", bus::spec(topics::odometry("jurong")));
@@ -38,7 +38,7 @@ TEST_F(RecorderTest, HearsPosesTwiceASecondAndCommandsAlways) {
   EXPECT_EQ(counts, (std::map<std::string, int>{{"/jurong/ground_truth/odometry", 2}, {"/jurong/command/gimbal", 40}}));
 }
 
-TEST_F(RecorderTest, CarriesTheDefinitionOfItsMessages) {
+TEST_F(RecorderTest, WritesTheDefinitionsOfItsMessages) {
   msg::Tally tally;
   tally.points(7);
   {
@@ -59,9 +59,9 @@ TEST_F(RecorderTest, CarriesTheDefinitionOfItsMessages) {
   EXPECT_EQ(types, (std::vector<std::string>{"skein_msgs/msg/Tally", ""}));
 }
 
-TEST_F(RecorderTest, APartIsSafeWhenItsProgramDiesAndNeverInTheWayOfTheNext) {
+TEST_F(RecorderTest, APartOutlivesItsProgramAndTheNextProgramWritesAnother) {
   msg::Tally tally;
-  // Not closed before `next` starts, as if SIGKILL had ended its program.
+  // This recorder is not closed before `next` starts, as if SIGKILL had ended its program.
   auto* dies = new Recorder(folder_, programs::kStation, Scope::run);
   dies->add("/skein/tally", tally);
   dies->flush();
@@ -87,7 +87,7 @@ TEST_F(RecorderTest, ThatRecordsNothingLeavesNothing) {
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
-TEST_F(RecorderTest, AFolderThatCannotBeWrittenIsATroubleAndNoError) {
+TEST_F(RecorderTest, AFolderThatCannotBeWrittenIsReportedWithoutAnException) {
   Recorder recorder(folder_ / "missing", programs::kStation, Scope::run);
   recorder.add("/skein/tally", msg::Tally());
   recorder.close();

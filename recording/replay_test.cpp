@@ -24,7 +24,7 @@ struct Word {
   mcap::Bytes payload;
   bool operator==(const Word&) const = default;
 };
-using Speech = std::vector<std::vector<Word>>;  ///< by step
+using Speech = std::vector<std::vector<Word>>;  ///< the words of each step
 
 Speech random_speech(std::uint64_t seed, std::size_t steps) {
   std::mt19937_64 random(seed);
@@ -43,7 +43,7 @@ Speech random_speech(std::uint64_t seed, std::size_t steps) {
 
 class ReplayTest : public mcap::McapFiles {
  protected:
-  /// Takes a speech as a server does. @returns the words that it took.
+  /// Passes a speech to a tap, as a server does. @returns the words that the tap passes on.
   template <class TapType>
   Speech hear(TapType& tap, const Speech& speech, const std::function<void(Tick)>& begin,
               const std::function<void()>& end) {
@@ -66,7 +66,7 @@ class ReplayTest : public mcap::McapFiles {
     return heard;
   }
 
-  /// @returns the file.
+  /// Records a speech. @returns the file of the recording
   std::filesystem::path record(const Speech& speech) {
     Recorder recorder(folder_, programs::kSimServer, Scope::run);
     EXPECT_EQ(hear(
@@ -86,7 +86,7 @@ class ReplayTest : public mcap::McapFiles {
   }
 };
 
-TEST_F(ReplayTest, TakesWhatWasSaidThenWhateverIsSaidNow) {
+TEST_F(ReplayTest, PassesOnTheRecordedWordsWhateverTheUavsSayNow) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     std::filesystem::remove(folder_ / run_folder::recording_part(programs::kSimServer, 0));
     const Speech then = random_speech(seed, 30), now = random_speech(seed + 100, 30);
@@ -95,11 +95,11 @@ TEST_F(ReplayTest, TakesWhatWasSaidThenWhateverIsSaidNow) {
     EXPECT_EQ(replay({.file = file, .until_s = {}, .only = {}}, then, differences), then) << seed;
     EXPECT_TRUE(differences.empty());
     EXPECT_EQ(replay({.file = file, .until_s = {}, .only = {}}, now, differences), then) << seed;
-    EXPECT_EQ(differences.size(), 2U) << "the first of each UAV";
+    EXPECT_EQ(differences.size(), 2U) << "the first difference of each UAV is reported";
   }
 }
 
-TEST_F(ReplayTest, TellsTheFirstDifferenceOfTheChosenUav) {
+TEST_F(ReplayTest, ReportsTheFirstDifferenceOfTheChosenUav) {
   const Speech then = random_speech(7, 40);
   const std::filesystem::path file = record(then);
   std::mt19937_64 random(8);
@@ -120,7 +120,7 @@ TEST_F(ReplayTest, TellsTheFirstDifferenceOfTheChosenUav) {
   }
 }
 
-TEST_F(ReplayTest, LetsGoAtItsTime) {
+TEST_F(ReplayTest, PassesOnTheNewWordsFromItsEndOn) {
   const Speech then = random_speech(1, 40), now = random_speech(2, 40);
   const std::filesystem::path file = record(then);
   for (const std::size_t step : {0U, 1U, 17U, 39U}) {
@@ -161,7 +161,8 @@ class TellsOfItself : public ReplayTest {
     }
     return heard;
   }
-  /// @returns what is handed on of a run in which it says `now`; what differs is in `differences_`.
+  /// Records the messages `then`, and replays them in a run in which the program says `now`. Sets `differences_`.
+  /// @returns the messages that the replay passes on
   Told retold(const topics::WireTopic& then_on, const Told& then, const topics::WireTopic& now_on, const Told& now) {
     const auto part = folder_ / run_folder::recording_part(programs::kSimServer, 0);
     std::filesystem::remove(part);
@@ -184,10 +185,10 @@ TEST_F(TellsOfItself, AnActivityIsTakenFromTheRecordingAndIsNoDifference) {
   const Told now = {activity("takes off", 0.3), activity("has no goal", 0.4)};
   const auto topic = topics::activity("jurong");
   const Told recorded = {activity("takes off", 0.0), activity("delivers", 0.0)};
-  EXPECT_EQ(retold(topic, then, topic, now), recorded) << "without its CPU time: no recording would be the same";
-  EXPECT_EQ(differences_, 0U) << "it is for people";
+  EXPECT_EQ(retold(topic, then, topic, now), recorded) << "a recording has no CPU times, which differ from run to run";
+  EXPECT_EQ(differences_, 0U) << "activities are information for people, so no difference counts";
   EXPECT_EQ(retold(topics::trigger("jurong"), {debug(1.0), debug(1.0)}, topic, now), now)
-      << "a recording from before there was such";
+      << "an earlier version recorded no activities";
   EXPECT_EQ(differences_, 0U);
 }
 
@@ -207,7 +208,7 @@ TEST_F(ReplayTest, AFileThatIsCutOffIsRefused) {
   EXPECT_THROW(Replay({.file = file, .until_s = {}, .only = {}}, idle), InputError);
 }
 
-TEST(ReplayDifference, IsDescribedInWordsThatAnyFileCanHold) {
+TEST(ReplayDifference, IsDescribedInValidUtf8) {
   msg::String text;
   text.data(std::string("\xFF\x00plan", 6));
   EXPECT_NE(describe(type_name<msg::String>(), encode(text)).find("bytes"), std::string::npos);

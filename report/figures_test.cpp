@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep = 0.05;
 
-/// Every figure is held against a count by hand over such runs.
+/// Random runs. The tests compare each figure with one that they compute in a simpler way.
 class Figures : public testing::TestWithParam<unsigned> {
  protected:
   Figures() : random_(GetParam()) {
@@ -59,7 +59,7 @@ class Figures : public testing::TestWithParam<unsigned> {
     const std::size_t i = below(run_.uavs.size() + 1);
     return i < run_.uavs.size() ? run_.uavs[i] : "gcs";
   }
-  /// The links in step k, by brute force: sender, receiver.
+  /// The links in step k, computed by brute force: sender and receiver.
   std::set<std::pair<std::string, std::string>> links_in(std::size_t k) const {
     std::set<std::pair<std::string, std::string>> up;
     for (const results::EventRow& event : run_.events) {
@@ -81,10 +81,11 @@ class Figures : public testing::TestWithParam<unsigned> {
   results::RunRecord run_;
 };
 
-TEST_P(Figures, ABoxHoldsWhatIsBetweenItsFaces) {
+TEST_P(Figures, ABoxHoldsThePointsBetweenItsFaces) {
   for (const results::RunBox& box : run_.boxes) {
     for (int i = 0; i < 50; ++i) {
-      const Vector3d share(number(2.4) - 1.2, number(2.4) - 1.2, number(2.4) - 1.2);  // of the way to the faces
+      const Vector3d share(number(2.4) - 1.2, number(2.4) - 1.2,
+                           number(2.4) - 1.2);  // as shares of the way to the faces
       const Vector3d p_W = box.center + box.R_WB * (0.5 * box.size.cwiseProduct(share));
       if (std::abs(share.cwiseAbs().maxCoeff() - 1.0) < 1e-6) continue;  // on a face
       EXPECT_EQ(box.holds(p_W), share.cwiseAbs().maxCoeff() < 1.0);
@@ -92,7 +93,7 @@ TEST_P(Figures, ABoxHoldsWhatIsBetweenItsFaces) {
   }
 }
 
-TEST_P(Figures, BoxesSumUpToAll) {
+TEST_P(Figures, TheFiguresOfAllBoxesAreThoseOfAllPoints) {
   const std::vector<BoxFigures> boxes = box_figures(run_);
   const BoxFigures& all = boxes.back();
   EXPECT_EQ(all.points, run_.points.size());
@@ -120,7 +121,7 @@ TEST_P(Figures, BoxesSumUpToAll) {
 }
 
 TEST_P(Figures, PointsNeverInThePictureAreCountedByWhetherAUavCameNear) {
-  EXPECT_FALSE(never_in_picture(run_)) << "no camera is known";
+  EXPECT_FALSE(never_in_picture(run_)) << "the run has no camera yet";
   const auto cause = results::cause_of("never_in_picture");
   for (std::size_t uav = 0; uav < run_.uavs.size(); ++uav) {
     run_.cameras.push_back(below(4) > 0 ? std::optional(results::RunCamera{60.0, 40.0, number(6.0)}) : std::nullopt);
@@ -166,7 +167,7 @@ TEST_P(Figures, TheEarnedScoreCountsTheBestPictureOfEachPoint) {
   }
 }
 
-TEST_P(Figures, ContactIsWhatTheLinksAllow) {
+TEST_P(Figures, ContactFollowsFromTheLinks) {
   const std::vector<Lane> lanes = lanes_of(run_);
   const double first_s = run_.events.front().time_s;
   for (std::size_t k = 0; k < kSteps; k += 7) {
@@ -188,7 +189,7 @@ TEST_P(Figures, ContactIsWhatTheLinksAllow) {
   }
 }
 
-TEST_P(Figures, SharesOfLinksAreStepsWithALink) {
+TEST_P(Figures, TheShareOfALinkIsTheShareOfStepsWithTheLink) {
   const LinkShares shares = link_shares(run_);
   std::map<std::pair<std::string, std::string>, double> steps;
   for (std::size_t k = 0; k < kSteps; ++k) {
@@ -200,7 +201,7 @@ TEST_P(Figures, SharesOfLinksAreStepsWithALink) {
   }
 }
 
-TEST_P(Figures, LatencyIsThatOfEachCaptureOnce) {
+TEST_P(Figures, LatencyCountsEachCaptureOnce) {
   const Latency latency = latency_of(run_);
   std::map<std::pair<std::string, std::uint64_t>, std::optional<double>> captures;
   for (const results::CaptureRow& line : run_.captures) {
@@ -220,7 +221,7 @@ TEST_P(Figures, LatencyIsThatOfEachCaptureOnce) {
   }
 }
 
-TEST_P(Figures, StillIsSlowWithoutABetterPicture) {
+TEST_P(Figures, AUavIsStillIfItIsSlowAndTookNoBetterPicture) {
   for (std::size_t i = 0; i < 600; ++i) {
     const Vector3d v_W((i / 40) % 2 == below(2) ? 1.0 : 0.0, 0.0, 0.0);
     run_.poses.push_back({0.1 * static_cast<double>(i), run_.uavs[0], Vector3d::Zero(), v_W, i < 500});
@@ -236,8 +237,8 @@ TEST_P(Figures, StillIsSlowWithoutABetterPicture) {
   }
 }
 
-/// In each step, what the UAV reported last counts, if its program takes part.
-TEST_P(Figures, TimeIsUsedForWhatWasReportedLast) {
+/// In each step, the activity that the UAV reported last counts, if its program takes part.
+TEST_P(Figures, EachStepCountsForTheActivityThatWasReportedLast) {
   static const std::vector<std::pair<std::string, TimeUse>> kSaid = {{"takes off", TimeUse::takes_off},
                                                                      {"flies along a line", TimeUse::flies},
                                                                      {"flies back the way it came", TimeUse::recovers},
@@ -275,7 +276,7 @@ TEST_P(Figures, TimeIsUsedForWhatWasReportedLast) {
   }
 }
 
-TEST_P(Figures, UndeliveredIsHandedOutLessAcknowledged) {
+TEST_P(Figures, UndeliveredCapturesAreThoseTakenLessThoseReleased) {
   run_.events.clear();
   int waiting = 0;
   std::map<double, int> expected;

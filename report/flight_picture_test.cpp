@@ -50,10 +50,10 @@ TEST(FlightPicture, ReadsAResultsFolder) {
   ASSERT_EQ(picture.tracks.size(), 2u);
   EXPECT_TRUE(picture.tracks[0].explorer);
   EXPECT_EQ(picture.tracks[0].p_WB.size(), 2u);
-  EXPECT_EQ(picture.tracks[1].p_WB.size(), 1u) << "a line that was cut short is left out";
+  EXPECT_EQ(picture.tracks[1].p_WB.size(), 1u) << "an incomplete line is left out";
 }
 
-TEST(FlightPicture, AFolderWithoutAnythingGivesAnEmptyDrawing) {
+TEST(FlightPicture, AnEmptyFolderGivesAnEmptyDrawing) {
   const results::Scratch scratch;
   const FlightPicture picture = read_picture(scratch.path());
   EXPECT_TRUE(picture.boxes.empty() && picture.points.empty() && picture.tracks.empty());
@@ -61,7 +61,7 @@ TEST(FlightPicture, AFolderWithoutAnythingGivesAnEmptyDrawing) {
   EXPECT_NO_THROW(xml_elements(picture_svg(picture, view, "")));
 }
 
-TEST(FlightPicture, AllThatIsShownIsWithinTheDrawing) {
+TEST(FlightPicture, EverythingIsWithinTheDrawing) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 30; ++trial) {
     const FlightPicture one = random_picture(random, 500), other = random_picture(random, 50);
@@ -84,12 +84,13 @@ TEST(FlightPicture, TheViewIsFromAboveAndTheSouth) {
   FlightPicture picture;
   picture.points = {{{0, 0, 0}, 1}, {{10, 10, 10}, 1}};
   const PictureView view({&picture});
-  EXPECT_LT(view.at({0, 0, 10}).y(), view.at({0, 0, 0}).y()) << "up is up";
-  EXPECT_LT(view.at({0, 10, 0}).y(), view.at({0, 0, 0}).y()) << "north is away";
-  EXPECT_GT(view.at({10, 0, 0}).x(), view.at({0, 0, 0}).x()) << "east is to the right";
+  EXPECT_LT(view.at({0, 0, 10}).y(), view.at({0, 0, 0}).y()) << "a higher point is drawn higher";
+  EXPECT_LT(view.at({0, 10, 0}).y(), view.at({0, 0, 0}).y())
+      << "a point in the north is drawn higher, farther from the viewer";
+  EXPECT_GT(view.at({10, 0, 0}).x(), view.at({0, 0, 0}).x()) << "a point in the east is drawn to the right";
 }
 
-TEST(FlightPicture, ManyPointsAreThinnedAndNoDetectedOneIsHiddenByOneThatIsNot) {
+TEST(FlightPicture, ManyPointsAreThinnedAndNoUndetectedPointHidesADetectedOne) {
   std::mt19937 random(6);
   const FlightPicture picture = random_picture(random, 60000);
   const PictureView view({&picture});
@@ -104,7 +105,7 @@ TEST(FlightPicture, ManyPointsAreThinnedAndNoDetectedOneIsHiddenByOneThatIsNot) 
   EXPECT_EQ(drawn.find("\"q0\""), std::string::npos);
 }
 
-TEST(FlightPicture, ASimplifiedLineStaysNearAndKeepsItsEnds) {
+TEST(FlightPicture, ASimplifiedLineStaysNearTheOriginalAndKeepsItsEnds) {
   std::mt19937 random(8);
   for (int trial = 0; trial < 100; ++trial) {
     std::vector<Vector2d> line = {Vector2d::Zero()};

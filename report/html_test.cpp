@@ -14,7 +14,7 @@ TEST(Html, CharactersWithAMeaningInMarkupAreEscaped) {
   EXPECT_EQ(escaped(std::string("a\x01\0b", 4)), "a??b");
 }
 
-TEST(Html, NumbersAreShort) {
+TEST(Html, NumbersHaveFewDigits) {
   EXPECT_EQ(fixed(3.14159, 2), "3.14");
   EXPECT_EQ(fixed(std::nullopt, 1), "–");
   EXPECT_EQ(coordinate(3.0), "3");
@@ -28,7 +28,7 @@ TEST(Html, LongTextsAreCutBetweenCharacters) {
   EXPECT_EQ(shortened("äöüäöü", 3), "äö…");
 }
 
-TEST(Html, AnAxisHoldsItsValuesWithRoundTicks) {
+TEST(Html, AnAxisContainsItsValuesAndHasRoundTicks) {
   std::mt19937 random(7);
   for (int i = 0; i < 20000; ++i) {
     const double size = std::pow(10.0, static_cast<double>(random() % 9) - 3.0);
@@ -43,13 +43,13 @@ TEST(Html, AnAxisHoldsItsValuesWithRoundTicks) {
     ASSERT_LE(ticks.size(), 10u) << a << " " << b;
     ASSERT_NEAR(ticks.back(), axis.high, 1e-9 * (std::abs(axis.high) + size));
     for (const double tick : ticks) {
-      ASSERT_NEAR(std::stod(axis.label(tick)), tick, 1e-6 * axis.step) << "the label says less than the tick";
+      ASSERT_NEAR(std::stod(axis.label(tick)), tick, 1e-6 * axis.step) << "the label has too few digits for the tick";
       ASSERT_NEAR(std::remainder(tick, axis.step), 0.0, 1e-6 * axis.step);
     }
   }
 }
 
-TEST(Html, AnAxisBeginsAtNothingUnlessThatWastesHalfOfIt) {
+TEST(Html, AnAxisBeginsAtZeroUnlessThatWastesHalfOfIt) {
   EXPECT_EQ(nice_axis(300, 800).low, 0.0);
   EXPECT_EQ(nice_axis(780, 800).low, 780.0);
   EXPECT_EQ(nice_axis(0, 0).low, 0.0);

@@ -16,7 +16,7 @@ namespace {
 const std::string kMostOfTheWorld =
     "# Octomap OcTree binary file\n# comment\n#\nid OcTree\nsize 7\nres 0.5\ndata\n" + std::string("\x64\x54", 2);
 
-TEST(MapFigures, ShareOfTheBoxesIsThatOfTheirVolume) {
+TEST(MapFigures, TheKnownShareOfTheBoxesIsThatOfTheirVolume) {
   results::RunRecord run;
   run.uavs = {"a", "b"};
   run.maps = {kMostOfTheWorld, ""};
@@ -32,7 +32,7 @@ TEST(MapFigures, ShareOfTheBoxesIsThatOfTheirVolume) {
   EXPECT_NEAR(figures[0]->free_m3, 5.0 * std::pow(16384.0, 3), 1.0);
 }
 
-// The colours divide at least one metre, also where all is lower: so must the legend.
+// The colours divide the height of the boxes, but at least one metre. The legend must do the same.
 TEST(MapsSection, TheLegendEndsWithTheGreatestHeightOfTheColours) {
   results::RunRecord run;
   run.uavs = {"a"};

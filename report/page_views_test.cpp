@@ -65,7 +65,7 @@ class Section {
   pugi::xml_document document_;
 };
 
-/// A run with one point that lost nothing, and points that lost score for random causes. Some causes have no point.
+/// A run with one point that lost no score, and with points that lost some for random causes. A cause may have no point.
 results::RunRecord lossy_run(std::mt19937& random) {
   results::RunRecord run;
   run.causes_known = true;
@@ -79,7 +79,7 @@ results::RunRecord lossy_run(std::mt19937& random) {
     run.points.push_back(point);
   };
   add(std::nullopt, 0.0);
-  const auto has_points = random();  // a bit per cause
+  const auto has_points = random();  // one bit for each cause
   for (int i = 0; i < 40; ++i) {
     const std::size_t cause = random() % results::kCauses.size();
     if ((has_points >> cause & 1U) != 0) add(cause, 0.5 * static_cast<double>(1 + random() % 9));
@@ -107,7 +107,7 @@ TEST(PlacesSection, HasForEachCauseADrawingThatHighlightsItsPoints) {
       legend.emplace_back("background:var(--" + colour + ")", title);
       expected.front().dots[colour] = points;
       expected.push_back({title, fmt::format("{} points, {} score", points, fixed(loss, 1)), "", {{colour, points}}});
-      expected.back().dots["q0"] = total - points;  // the others stay pale
+      expected.back().dots["q0"] = total - points;  // the other points stay pale
     }
     expected.front().dots["q0"] = 1;
     legend.emplace_back("background:var(--q0)", "nothing lost");
@@ -132,7 +132,7 @@ TEST(PlacesSection, IsEmptyIfNoCausesAreKnown) {
   EXPECT_EQ(places_section(RunPage(run)), "");
 }
 
-TEST(ViewsSection, DrawsWhateverIsKnown) {
+TEST(ViewsSection, DrawsTheDataThatTheRunHas) {
   RunPage nothing{results::RunRecord()};
   EXPECT_NE(views_section(nothing).find("Nothing is known about the scene"), std::string::npos);
   EXPECT_TRUE(Section(views_section(nothing)).panels().empty());

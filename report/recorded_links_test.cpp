@@ -7,7 +7,7 @@
 namespace skein::report {
 namespace {
 
-/// Two UAVs; all links are up from 0 on.
+/// A run of two UAVs whose links are all up from 0 s on.
 results::RunRecord two_uavs() {
   results::RunRecord run;
   run.uavs = {"a", "b"};
@@ -30,7 +30,7 @@ void all_down(results::RunRecord& run, double time_s, const std::string& node, b
   }
 }
 
-/// As a line has it.
+/// The states of all links at this time, as the lines for the page write them.
 std::string digits(const results::RunRecord& run, double time_s) {
   std::string found;
   for (const auto& [from_s, links] : recorded_links(run)) {
@@ -50,7 +50,7 @@ TEST(RecordedLinks, AreBlockedWithoutAFault) {
   EXPECT_FALSE(has_cuts(run));
 }
 
-TEST(RecordedLinks, AreCutWhereAFaultSilencesANode) {
+TEST(RecordedLinks, AreCutWhileAFaultSilencesANode) {
   results::RunRecord run = two_uavs();
   run.faults = {{"blackout", "b", 10.0, 20.0}};
   all_down(run, 10.0, "b");
@@ -58,7 +58,7 @@ TEST(RecordedLinks, AreCutWhereAFaultSilencesANode) {
   EXPECT_TRUE(has_cuts(run));
   EXPECT_EQ(digits(run, 9.9), "011101110");
   EXPECT_EQ(digits(run, 10.0), "012102220");
-  EXPECT_EQ(digits(run, 20.0), "010100000") << "the fault is over, and they are out of sight";
+  EXPECT_EQ(digits(run, 20.0), "010100000") << "the fault is over, and the nodes have no line of sight";
   EXPECT_EQ(digits(run, 25.0), "011101110");
 }
 
@@ -69,18 +69,18 @@ TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
   EXPECT_EQ(digits(run, 12.0), "012102220");
   run.faults[0].target = "a | b";
   run.events.push_back({0, run_tables::kLinkDown, "a", "gcs", 10.0});
-  EXPECT_EQ(digits(run, 12.0), "012202220") << "who is in no group is in one of its own";
+  EXPECT_EQ(digits(run, 12.0), "012202220") << "a node that is in no group is in a group of its own";
   EXPECT_EQ(digits(run, 35.0), "010000000") << "a killed program cuts no link";
 }
 
-TEST(RecordedLinks, AreCutOfAStationThatIsOut) {
+TEST(RecordedLinks, OfAStationThatIsOutAreCut) {
   results::RunRecord run = two_uavs();
   run.faults = {{"station_outage", "gcs", 10.0, 20.0}};
   all_down(run, 10.0, "gcs");
   EXPECT_EQ(digits(run, 12.0), "022201210");
 }
 
-TEST(RecordedLinks, AreDeadOfAUavThatCollided) {
+TEST(RecordedLinks, OfAUavThatCollidedAreDead) {
   results::RunRecord run = two_uavs();
   run.collisions = {{10.0, "a", "structure", {}}};
   all_down(run, 10.05, "a");

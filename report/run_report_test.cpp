@@ -23,7 +23,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
-/// The element's text as a browser reads it.
+/// The text between `begin` and `end`, as a browser finds the text of an element.
 std::string element_text(const std::string& page, const std::string& begin, const std::string& end) {
   const std::size_t from = page.find(begin) + begin.size();
   return page.substr(from, page.find(end, from) - from);
@@ -31,7 +31,7 @@ std::string element_text(const std::string& page, const std::string& begin, cons
 
 class OddRuns : public testing::TestWithParam<unsigned> {};
 
-TEST_P(OddRuns, GiveASoundPage) {
+TEST_P(OddRuns, GiveAWellFormedPage) {
   std::mt19937 random(GetParam());
   for (int trial = 0; trial < 12; ++trial) {
     SCOPED_TRACE(trial);
@@ -43,13 +43,14 @@ TEST_P(OddRuns, GiveASoundPage) {
     EXPECT_EQ(page, run_page(run, std::nullopt)) << "the same folder gives the same page";
     EXPECT_EQ(count_of(page, "<script"), 0u);
     for (const char* number : {"nan", "inf", "e+"}) {
-      EXPECT_FALSE(std::regex_search(page, std::regex(std::string("[\" ]-?") + number + "[\" ]"))) << "in a drawing";
+      EXPECT_FALSE(std::regex_search(page, std::regex(std::string("[\" ]-?") + number + "[\" ]")))
+          << "a drawing has an invalid number";
     }
-    EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!#)"))) << "something is to be fetched";
+    EXPECT_FALSE(std::regex_search(page, std::regex("(src|href)=\"(?!#)"))) << "the page loads something";
 
     const std::string script = "let x = '<b>' && 1 < 2;";
     const std::string live = run_page(run, script);
-    EXPECT_EQ(count_of(live, "<script"), 2u) << "a text of the run begins another";
+    EXPECT_EQ(count_of(live, "<script"), 2u) << "a text of the run begins another script";
     EXPECT_EQ(count_of(live, "</script"), 2u);
     EXPECT_EQ(element_text(live, "</script>\n<script>", "</script>"), script);
     EXPECT_NE(live.find(escaped(script_hash(script))), std::string::npos);
@@ -117,10 +118,10 @@ TEST(RunReport, MissingPartsAreReported) {
     EXPECT_NE(page.find("There is no " + std::string(file)), std::string::npos) << file;
   }
   EXPECT_NE(page.find("events.csv makes sense for 1 rows only"), std::string::npos);
-  EXPECT_EQ(page.find(scratch.path().string()), std::string::npos) << "where the folder lies is nobody's business";
+  EXPECT_EQ(page.find(scratch.path().string()), std::string::npos) << "the page must not reveal the path of the folder";
 }
 
-TEST(RunReport, SplitsWhatWasTooPoorToCount) {
+TEST(RunReport, SplitsTheLossesOfPicturesThatWereTooPoorToCount) {
   const auto page_of = [](const Json& too_poor) {
     results::RunRecord run;
     run.result = {{"attainable", {{"points", 9}, {"score", 9.0}}}, {"losses", {{"below_threshold", too_poor}}}};
@@ -134,22 +135,22 @@ TEST(RunReport, SplitsWhatWasTooPoorToCount) {
   const std::string rows = rows_of(page_of({{"points", 3}, {"score", 2.0}, {"by_part", parts}}));
   EXPECT_NE(rows.find("too much from the side"), std::string::npos) << rows;
   EXPECT_NE(rows.find("blurred"), std::string::npos) << rows;
-  EXPECT_EQ(count_of(rows, "<tr"), 3u) << "with the head: " << rows;
+  EXPECT_EQ(count_of(rows, "<tr"), 3u) << "the head and two rows: " << rows;
   const std::string earlier = rows_of(page_of({{"points", 3}, {"score", 2.0}}));
   EXPECT_NE(earlier.find("part not known"), std::string::npos) << "a result of an earlier version: " << earlier;
   EXPECT_EQ(count_of(earlier, "<tr"), 2u) << earlier;
   EXPECT_EQ(page_of({{"points", 0}, {"score", 0.0}}).find("data-table=\"poor\""), std::string::npos);
 }
 
-TEST(RunReport, WithoutItsScriptAPageSaysWhereToGetIt) {
+TEST(RunReport, APageWithoutItsScriptSaysWhereToGetIt) {
   const results::Scratch scratch;
   write_text(scratch.path() / "result.json", R"({"status": "completed"})");
   const std::string page = run_page(results::read_sound_run(scratch.path()), std::nullopt);
   EXPECT_NE(page.find("Packages of Skein contain it; a build from source makes it with npm"), std::string::npos)
-      << "users of a package have no folder for npm";
+      << "users of a package cannot build the script with npm";
 }
 
-TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
+TEST(RunReport, ANumberOutOfRangeEndsItsTable) {
   for (const char* number : {"nan", "-inf", "1e300", "x"}) {
     const results::Scratch scratch;
     write_text(scratch.path() / "result.json", R"({"status": "completed", "uavs": [{"name": "a"}]})");
@@ -162,7 +163,7 @@ TEST(RunReport, ANumberOutOfAllBoundsEndsItsTable) {
   }
 }
 
-TEST(RunReport, TheCommandIsAsItWasTypedOrRepeatsTheRun) {
+TEST(RunReport, ThePageHasTheTypedCommandOrOneThatRepeatsTheRun) {
   const std::string typed = "skein run towers --faults 'my faults.yaml'";
   const auto page_of = [](const Json& result) {
     results::RunRecord run;
@@ -183,7 +184,7 @@ TEST(RunReport, TheCommandIsAsItWasTypedOrRepeatsTheRun) {
             std::string::npos);
 }
 
-TEST(WebBundle, HashesAsBrowsersDo) {
+TEST(WebBundle, HashesScriptsAsBrowsersDo) {
   EXPECT_EQ(script_hash(""), "sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=");
   EXPECT_EQ(script_hash("alert('Hello, world.');"), "sha256-qznLcsROx4GACP2dm0UCKCzCG+HiZ1guq6ZZDob/Tng=");
 }
@@ -192,7 +193,7 @@ TEST(WebBundle, ABundleThatDoesNotFitIntoAScriptElementIsLeftOut) {
   const results::Scratch scratch;
   const auto file = scratch.path() / "report.js";
   ::setenv("SKEIN_WEB", file.c_str(), 1);
-  EXPECT_EQ(web_bundle(), std::nullopt) << "there is none";
+  EXPECT_EQ(web_bundle(), std::nullopt) << "there is no bundle";
   for (const auto& [text, fits] : {std::pair("let x = 1;", true), {"'</ScRipt >'", false}, {"'<!-- x'", false}}) {
     write_text(file, text);
     EXPECT_EQ(web_bundle().has_value(), fits) << text;
@@ -200,7 +201,7 @@ TEST(WebBundle, ABundleThatDoesNotFitIntoAScriptElementIsLeftOut) {
   ::unsetenv("SKEIN_WEB");
 }
 
-TEST(WebBundle, NoTextOfJsonEndsItsElement) {
+TEST(WebBundle, NoTextInTheJsonEndsItsScriptElement) {
   for (const std::string& text : kNastyTexts) {
     const std::string dumped = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace),
                       json = script_json(dumped);

@@ -16,7 +16,7 @@ namespace {
 
 class CsvCells : public testing::Test {
  protected:
-  /// The result of `read` for a table whose third line has this cell.
+  /// The result of `read` for a table with this cell in its third line.
   auto read_cell(const std::string& cell, const auto& read) const {
     std::ofstream(file_) << "name,value\nfirst,1\nsecond," << cell << "\n";
     CsvTable table(file_);

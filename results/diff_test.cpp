@@ -27,7 +27,7 @@ class RunDiff : public ::testing::Test {
   std::filesystem::path a_ = scratch_.path() / "a", b_ = scratch_.path() / "b";
 };
 
-TEST_F(RunDiff, EqualRuns) { EXPECT_FALSE(difference_to(kRun)); }
+TEST_F(RunDiff, EqualRunsHaveNoDifference) { EXPECT_FALSE(difference_to(kRun)); }
 
 TEST_F(RunDiff, NamesStepTimeEntityAndFields) {
   const auto difference = difference_to(std::string(kHeader) + "0,aa,1,2,3\n1,xx,0,5,0\n2,yy,0,0,0\n");
@@ -42,11 +42,11 @@ TEST_F(RunDiff, TimeFollowsTheRunsExchangePeriod) {
   EXPECT_DOUBLE_EQ(difference_to(std::string(kHeader) + "0,aa,1,2,3\n1,xx,0,5,0\n")->time_s, 0.1);
 }
 
-TEST_F(RunDiff, OnlyTheRunningDigestDiffers) {
+TEST_F(RunDiff, ADifferenceOfOnlyTheRunningDigestIsReported) {
   EXPECT_EQ(difference_to(std::string(kHeader) + "0,zz,1,2,3\n")->fields, std::vector<std::string>{"digest"});
 }
 
-TEST_F(RunDiff, DifferentLengths) {
+TEST_F(RunDiff, ADifferenceOfLengthsIsReported) {
   const auto shorter = difference_to(std::string(kHeader) + "0,aa,1,2,3\n1,bb,4,5,6\n");
   ASSERT_TRUE(shorter);
   EXPECT_EQ(shorter->step, 2);
@@ -57,17 +57,17 @@ TEST_F(RunDiff, DifferentLengths) {
   EXPECT_EQ(longer->fields, std::vector<std::string>{"end: the first run stops before"});
 }
 
-TEST_F(RunDiff, ALineCutShortByAnAbortIsTheEnd) {
+TEST_F(RunDiff, ALineThatAnAbortCutOffEndsTheRun) {
   EXPECT_FALSE(difference_to(kRun + "3,dd,1"));
   EXPECT_FALSE(difference_to(kRun + "3,dd,1,1,1"));
 }
 
-TEST_F(RunDiff, ALastLineWithItsEndMustBeWhole) {
+TEST_F(RunDiff, ALastLineThatEndsWithANewlineMustBeComplete) {
   EXPECT_THROW(difference_to(kRun + "3,dd,1\n"), InputError);
   EXPECT_THROW(difference_to(std::string(kHeader) + "0,aa,1,2,3\n1,bb,4,5,6\n2,cc,7,8\n"), InputError);
 }
 
-TEST_F(RunDiff, OtherColumnsAreADifference) {
+TEST_F(RunDiff, DifferentColumnsAreADifference) {
   const auto difference = difference_to("k,digest,beta.position,radio\n0,aa,1,3\n");
   ASSERT_TRUE(difference);
   EXPECT_EQ(difference->fields,

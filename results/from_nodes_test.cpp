@@ -9,7 +9,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(FromNodes, IsToldByTopic) {
+TEST(FromNodes, TheTableHasALineForEachTopic) {
   const Json topic = {{"topic", "/jurong/command/trajectory"},
                       {"received", 100},
                       {"handed_on", 90},
@@ -28,7 +28,7 @@ TEST(FromNodes, IsToldByTopic) {
                           HasSubstr("sentosa: no ROS 2 node sent anything")));
 }
 
-TEST(FromNodes, IsNothingWhereThereAreNone) {
+TEST(FromNodes, WithoutRos2NodesThereIsNoTable) {
   const Json uavs = {{{"name", "jurong"}}};
   EXPECT_EQ(free_nodes_table(uavs), "");
   EXPECT_TRUE(warnings_of_free_nodes(uavs).empty());

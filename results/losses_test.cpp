@@ -34,7 +34,7 @@ class RunLosses : public ::testing::Test {
   Reports reports_;
 };
 
-TEST_F(RunLosses, EveryPointHasItsLine) {
+TEST_F(RunLosses, TheTableHasALineForEachPoint) {
   const Json losses = this->losses();
   EXPECT_EQ(losses["tilt"], (Json{{"points", 1}, {"score", 0.5}}));
   EXPECT_EQ(losses["not_delivered"], (Json{{"points", 1}, {"score", 0.75}}));
@@ -67,9 +67,9 @@ TEST_F(RunLosses, PointsTooPoorToCountAreSplitByTheBestPicture) {
   reports_.sim_server->points_seen = "11111";
   reports_.sim_server->points_poor = std::vector<PoorPointReport>{
       {.index = 2, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5},
-      {.index = 7, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5},   // there is no such point
-      {.index = 3, .q = 0.125, .q_blur = 0.25, .q_distance = {}, .q_res = 0.5},    // damaged
-      {.index = 0, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5}};  // it scored
+      {.index = 7, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5},   // the run has no such point
+      {.index = 3, .q = 0.125, .q_blur = 0.25, .q_distance = {}, .q_res = 0.5},    // a damaged entry
+      {.index = 0, .q = 0.125, .q_blur = 0.25, .q_distance = 1.0, .q_res = 0.5}};  // this point scored
   const Json losses = this->losses();
   const Json nothing = {{"points", 0}, {"score", 0.0}}, blur = {{"points", 1}, {"score", 1.0}},
              unsplit = {{"points", 1}, {"score", 0.5}};
@@ -85,7 +85,7 @@ TEST_F(RunLosses, PointsTooPoorToCountAreSplitByTheBestPicture) {
   EXPECT_EQ(parts_of(losses), expected);
 }
 
-TEST_F(RunLosses, ReportsAndResultsOfEarlierVersionsDoNotSplit) {
+TEST_F(RunLosses, ReportsAndResultsOfEarlierVersionsAreNotSplit) {
   reports_.sim_server->points_seen = "11111";
   Json losses = this->losses();
   const std::map<std::string, std::pair<std::size_t, double>> expected = {
@@ -97,7 +97,7 @@ TEST_F(RunLosses, ReportsAndResultsOfEarlierVersionsDoNotSplit) {
     EXPECT_EQ(parts_of(without).at("unsplit"), (std::pair<std::size_t, double>{0, 0.0}));
 }
 
-TEST_F(RunLosses, WithoutAnEstimateThatFitsThereIsNothing) {
+TEST_F(RunLosses, WithoutAMatchingEstimateThereAreNoLosses) {
   const Json answer = answer_;
   const Reports reports = reports_;
   const auto expect_nothing = [&](const char* what) {

@@ -20,9 +20,9 @@ std::string file_of(const std::string& data, std::size_t nodes) {
          data;
 }
 
-TEST(OctreeFile, LeavesAreWhereTheyAre) {
-  // Of the root's children the one at -x -y -z is free, the one at +x -y -z occupied, the one at +x +y +z has a child
-  // at its lowest corner that is occupied.
+TEST(OctreeFile, LeavesAreReadAtTheirPlaces) {
+  // Of the root's children, the one at -x -y -z is free, and that at +x -y -z is occupied. The one at +x +y +z has an
+  // occupied child at its lowest corner.
   const auto cubes = cubes_of(file_of({"\x09\xC0\x02\x00", 4}, 5));
   ASSERT_EQ(cubes.size(), 3U);
   constexpr double kHalf_m = 16384.0;
@@ -35,9 +35,9 @@ TEST(OctreeFile, LeavesAreWhereTheyAre) {
   EXPECT_EQ(cubes[2].edge_m, 0.5 * kHalf_m);
 }
 
-TEST(OctreeFile, AnEmptyMapIsReadToo) { EXPECT_TRUE(cubes_of(file_of("", 0)).empty()); }
+TEST(OctreeFile, AnEmptyMapHasNoCubes) { EXPECT_TRUE(cubes_of(file_of("", 0)).empty()); }
 
-TEST(OctreeFile, ACutOrAlteredFileIsNeverReadBeyondItsEnd) {
+TEST(OctreeFile, ACutOffOrAlteredFileIsNeverReadBeyondItsEnd) {
   std::mt19937 random(1);
   std::size_t refused = 0;
   for (int trial = 0; trial < 300; ++trial) {

@@ -43,10 +43,10 @@ TEST_F(ResultFile, AWrittenResultIsReadInAnyLayout) {
   EXPECT_EQ(result["score"], some_result()["score"]);
   write(result.dump());
   EXPECT_EQ(read_result_file(run_), result);
-  EXPECT_EQ(result_text(result), text) << "a result that is written again has one checksum";
+  EXPECT_EQ(result_text(result), text) << "a result that is written again has only one checksum";
 }
 
-TEST_F(ResultFile, AFlippedBitIsFound) {
+TEST_F(ResultFile, AFlippedBitIsDetected) {
   const auto seed = static_cast<unsigned>(::getpid());
   std::mt19937_64 random(seed);
   const std::string text = result_text(some_result());
@@ -59,7 +59,7 @@ TEST_F(ResultFile, AFlippedBitIsFound) {
     write(bad);
     try {
       Json read = read_result_file(run_);
-      // The name of the checksum's own key may be hit; the figures are whole then. So may the letter of an exponent.
+      // A bit in the name of the checksum's key, or the case bit of an exponent's letter, changes no figure.
       Json expected = sound;
       if (!read.contains(kChecksum)) {
         expected.erase(kChecksum);
@@ -73,7 +73,7 @@ TEST_F(ResultFile, AFlippedBitIsFound) {
   }
 }
 
-TEST_F(ResultFile, AResultOfAnEarlierVersionCountsAsItIs) {
+TEST_F(ResultFile, AResultOfAnEarlierVersionIsReadWithoutAChecksum) {
   write(some_result().dump(2, ' ', false, Json::error_handler_t::replace));
   EXPECT_EQ(read_result_file(run_)["seed"], 7);
 }
@@ -99,8 +99,8 @@ TEST_F(ResultFile, MissingFilesAndOtherJsonThanObjectsAreReported) {
   EXPECT_EQ(complaint(), damaged + "score: must be a number, not \"4.1\"");
 }
 
-/// The cause lies in the path to the file: a circle of links, or a folder that is none. It is not that a run left no
-/// result. Permissions, the usual cause, do not bind root, who may run this test.
+/// The cause lies in the path to the file: a circle of links, or a file in place of a folder. So the message must not
+/// say that the run left no result. Permissions are the usual cause, but do not bind root, who may run this test.
 TEST_F(ResultFile, TheReasonWhyItCannotBeReadIsReported) {
   const auto complaint = [](const std::filesystem::path& run) {
     try {
@@ -132,7 +132,7 @@ TEST_F(ResultFile, AFolderThatMayNotBeSearchedIsNamed) {
   std::filesystem::permissions(run_, std::filesystem::perms::none);
   try {
     read_result_file(run_);
-    ADD_FAILURE() << "read";
+    ADD_FAILURE() << "the result was read";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("cannot be read (Permission denied)"), std::string::npos) << error.what();
   }

@@ -21,7 +21,8 @@ bool has_type(const Json& value, const std::string& type) {
   return type == "null" && value.is_null();
 }
 
-/// The part of JSON Schema that result.schema.json uses, and every key must be described. One line an error.
+/// Validates a value with the part of JSON Schema that result.schema.json uses. Every key must be described. Adds an
+/// entry for each error.
 void validate(const Json& value, const Json& schema, const std::string& path, std::vector<std::string>& errors) {
   const Json types = schema["type"].is_array() ? schema["type"] : Json::array({schema["type"]});
   const auto matches = [&](const Json& type) { return has_type(value, type); };
@@ -111,7 +112,7 @@ class RunResult : public ::testing::Test {
   RunFacts facts_;
 };
 
-TEST_F(RunResult, AllReportsMakeACompleteResult) {
+TEST_F(RunResult, AllReportsTogetherGiveACompleteResult) {
   write_all_reports();
   const Json result = merged();
   EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
@@ -151,10 +152,10 @@ TEST_F(RunResult, SwitchesThatDifferFromThePresetAreReported) {
   EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
 }
 
-TEST_F(RunResult, APlanMayStandBesideTheEstimate) {
+TEST_F(RunResult, TheEstimateMayHaveAPlanWithItsFlight) {
   Json result = merged();
   result["attainable"] = {{"points", 9}, {"score", 8.5}, {"plan", {{"points", 7}, {"score", 6.0}}}};
-  EXPECT_EQ(schema_errors(result).size(), 1u) << "without its flight";
+  EXPECT_EQ(schema_errors(result).size(), 1u) << "the score of the plan's flight is missing";
   result["attainable"]["plan"]["flown_score"] = 6.25;
   EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
 }
@@ -167,7 +168,7 @@ TEST_F(RunResult, MemoryIsTheSumOfTheProcesses) {
   EXPECT_EQ(result["processes"]["sim_server"]["cpu_s"], 2.5);
 }
 
-TEST_F(RunResult, NoReportsMakeAnAbortedResultOfTheLastKnownNumbers) {
+TEST_F(RunResult, WithoutReportsTheResultIsAbortedAndHasTheLastKnownNumbers) {
   facts_.sim_time_s = 20.0;
   facts_.wall_time_s = 2.0;
   facts_.score = 3.25;
@@ -186,7 +187,7 @@ TEST_F(RunResult, NoReportsMakeAnAbortedResultOfTheLastKnownNumbers) {
   EXPECT_EQ(result["warnings"].size(), 5u) << result["warnings"];
 }
 
-TEST_F(RunResult, EachMissingReportKeepsTheOthers) {
+TEST_F(RunResult, AMissingReportDoesNotAffectTheOthers) {
   for (const char* missing : {"sim_server", "station", "comm_router", "uav_agent-alpha"}) {
     write_all_reports();
     std::filesystem::remove(dir_.path() / (std::string(missing) + ".report.json"));
@@ -196,7 +197,7 @@ TEST_F(RunResult, EachMissingReportKeepsTheOthers) {
   }
 }
 
-TEST_F(RunResult, PlannersStandThereAsTheCommandLineTakesThem) {
+TEST_F(RunResult, PlannersHaveTheSyntaxOfTheCommandLine) {
   facts_.planners = {{"alpha", "orbit:x=1", "/teams/a"}, {"beta", "hover"}};
   facts_.ground_program = UavPlanner{"gcs", "orbit", "/teams/b"};
   EXPECT_EQ(merged()["planner"], (Json{{"alpha", "orbit:x=1@/teams/a"}, {"beta", "hover"}, {"gcs", "orbit@/teams/b"}}));
@@ -221,7 +222,7 @@ TEST_F(RunResult, AReportCutShortOrOfWrongTypesCountsAsMissing) {
   EXPECT_EQ(schema_errors(merged()), std::vector<std::string>{});
 }
 
-TEST_F(RunResult, AnInterruptedRunWithoutReportsSaysSo) {
+TEST_F(RunResult, AnInterruptedRunWithoutReportsHasTheStatusInterrupted) {
   facts_.interrupted = true;
   EXPECT_EQ(merged()["status"], "interrupted");
 }
@@ -251,7 +252,7 @@ TEST_F(RunResult, AReportThatWasHandedInTakesPrecedenceOverItsFile) {
   EXPECT_EQ(result["warnings"].back(), "files are missing or cut short: a: full; b: full");
 }
 
-TEST_F(RunResult, SamplesThatWereNotSentAreSummedUpAndWarnedOf) {
+TEST_F(RunResult, SamplesThatWereNotSentAreSummedUpInAWarning) {
   write_all_reports();
   EXPECT_EQ(merged()["radio"]["unsent"], 0);
   EXPECT_EQ(merged()["warnings"].dump().find("could not be sent"), std::string::npos);

@@ -16,7 +16,7 @@ TEST(ProgramNames, EachMemberHasItsProgram) {
   EXPECT_TRUE(programs::is_agent(programs::kGroundAgent));
 }
 
-TEST(RunFolder, KnowsItsFilesAlsoHalfWritten) {
+TEST(RunFolder, KnowsTheFilesOfARunAlsoIfHalfWritten) {
   std::vector<std::string> files = {
       "result.json",          "score.csv",          "losses.csv",   "scene.json",      "trajectories.csv",
       "digests.csv",          "events.csv",         "captures.csv", "station.journal", "comm_router.counts",

@@ -1,5 +1,5 @@
-// Both ways to read the folder of a drawn run: of a sound folder they give the same; damage is refused, or ends the
-// table.
+// There are two ways to read a run's folder. Both read the same from a sound folder of a random run. With damage, one
+// refuses the folder, and the other ends the damaged table.
 #include "results/run_record.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ class DrawnFolder : public testing::TestWithParam<unsigned> {
   void write(const std::string& table) {
     write_text(dir() / table, heads_.at(table) + "\n" + joined(lines_.at(table), "\n") + "\n");
   }
-  /// Whether the page says that of this table only `rows` rows make sense.
+  /// Whether the run notes that only the first `rows` rows of this table are valid.
   static bool is_told(const RunRecord& run, const std::string& table, std::size_t rows) {
     return std::ranges::any_of(run.missing, [&](const std::string& sentence) {
       return sentence.starts_with(table + " makes sense for " + std::to_string(rows) + " rows only (");
@@ -86,8 +86,8 @@ class DrawnFolder : public testing::TestWithParam<unsigned> {
 
   std::mt19937 random_;
   const Scratch scratch_;
-  std::map<std::string, std::string> heads_;               ///< by table
-  std::map<std::string, std::vector<std::string>> lines_;  ///< by table
+  std::map<std::string, std::string> heads_;               ///< the head of each table
+  std::map<std::string, std::vector<std::string>> lines_;  ///< the lines of each table
 };
 
 TEST_P(DrawnFolder, IsReadAsItWasWritten) {
@@ -146,11 +146,11 @@ TEST_P(DrawnFolder, OnlyFilesThatAreAskedForAreRead) {
   const RunRecord run = read_sound_files(dir(), {run_folder::kEvents});
   EXPECT_EQ(run.events.size(), lines_.at(run_folder::kEvents).size());
   EXPECT_TRUE(run.captures.empty() && run.poses.empty() && run.scores.empty());
-  EXPECT_TRUE(run.missing.empty()) << "nobody asked for scene.json";
+  EXPECT_TRUE(run.missing.empty()) << "the caller did not ask for scene.json";
 }
 
-TEST_P(DrawnFolder, DamagedFilesAreToldFromMissingOnes) {
-  EXPECT_TRUE(damaged_files(dir()).empty()) << "there is no scene.json, but nothing is damaged";
+TEST_P(DrawnFolder, DamagedFilesAreDistinguishedFromMissingOnes) {
+  EXPECT_TRUE(damaged_files(dir()).empty()) << "scene.json is missing, but no file is damaged";
   write_text(dir() / run_folder::kTrajectories, "time_s,uav\n0.5,a\n");
   EXPECT_EQ(damaged_files(dir()).size(), 1U);
 }
@@ -173,7 +173,7 @@ TEST_P(DrawnFolder, WithoutAResultThereIsNoRun) {
     read_run(dir());
     ADD_FAILURE();
   } catch (const InputError&) {
-    ADD_FAILURE() << "the run is wrong, not the user's input";
+    ADD_FAILURE() << "read_run() must not report this as the user's mistake";
   } catch (const std::runtime_error&) {
   }
 }

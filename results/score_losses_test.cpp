@@ -23,7 +23,7 @@ CaptureRow capture(double q_distance, double q_tilt, double q_blur, bool deliver
   return row;
 }
 
-/// The station's score of captures: the best that was delivered and not voided.
+/// The station's score of captures: that of the best one that was delivered and not voided.
 float scored(const std::vector<CaptureRow>& captures) {
   float best = 0.0F;
   for (const CaptureRow& row : captures) {
@@ -32,7 +32,7 @@ float scored(const std::vector<CaptureRow>& captures) {
   return best;
 }
 
-/// A point of a drawn run: anything that may happen to one, nothing that may not.
+/// A point of a random run, with any combination of values that a real run may have.
 PointRecord drawn_point(RandomStream& random) {
   PointRecord point;
   if (random.uniform() < 0.8)
@@ -54,10 +54,10 @@ PointRecord drawn_point(RandomStream& random) {
   return point;
 }
 
-/// Whether a cause is what happened, said in other words than the code's.
+/// Whether a cause applies to a point: a second implementation, independent of the code under test.
 bool is_true(const PointRecord& point, const BatteryEffects& batteries, LossCause cause) {
   const auto any = [&](const auto& has) { return std::any_of(point.captures.begin(), point.captures.end(), has); };
-  // With it, the point would have come at least half of the way from its score to its estimate.
+  // Whether a picture of this quality would have closed at least half of the gap between score and estimate.
   const auto would_matter = [&](float q) {
     return q > point.score && (point.score == 0.0F || 2.0 * q >= static_cast<double>(point.estimate) + point.score);
   };
@@ -136,8 +136,8 @@ TEST(ScoreLosses, AllLossesTogetherAreTheDifference) {
   for (const auto& [name, cause] : enum_names(LossCause{})) EXPECT_GT(met[cause], 0u) << name;
 }
 
-/// The part by which the loss must be split, said in other words than the code's: nothing is worse, and of equals the
-/// first counts.
+/// The part for which the loss must count, computed independently of the code under test: the worst one, and of equal
+/// parts the first.
 std::string expected_part(const PointRecord& point, LossCause cause) {
   if (cause != LossCause::below_threshold) return "";
   if (!point.poor) return "unsplit";
@@ -192,7 +192,7 @@ TEST(ScoreLosses, TheWorstPartOfTheBestPictureIsToBlame) {
   EXPECT_EQ(cause(capture(0.75, 1.0, 0.75, true)), LossCause::distance);
   EXPECT_EQ(cause(capture(0.9, 0.7, 0.8, true)), LossCause::tilt);
   EXPECT_EQ(cause(capture(0.9, 0.8, 0.7, true)), LossCause::blur);
-  // The formula may prefer an axis: the tilt then gives back what the distance takes.
+  // A tilt above 1 may make up for the distance. The distance is still the cause.
   EXPECT_EQ(cause(capture(0.8, 1.2, 0.9, true)), LossCause::distance);
 }
 
@@ -201,7 +201,7 @@ TEST(ScoreLosses, ABetterPictureThatWasLostIsNamed) {
   point.score = scored(point.captures);
   EXPECT_EQ(loss_of(point).cause, LossCause::not_delivered);
   EXPECT_EQ(loss_of(point).best->q_distance, 0.8);
-  // Delivered or not: it went with its UAV.
+  // The UAV was lost, and its pictures with it, whether they were delivered or not.
   for (const bool delivered : {false, true}) {
     point.captures[1] = capture(0.8, 1.0, 1.0, delivered, true);
     EXPECT_EQ(loss_of(point).cause, LossCause::voided);

@@ -51,7 +51,7 @@ TEST(TrackingTable, CountsByVehicleSpeedAndAcceleration) {
   EXPECT_EQ(table.quantiles([](const TrackingTable::Bin& bin) { return bin.speed_mps() > 5.0; }).max, 0.0);
 }
 
-TEST(TrackingTable, AnErrorBeyondTheTableCountsAsItsGreatest) {
+TEST(TrackingTable, AnErrorBeyondTheTableCountsInItsLastBin) {
   TrackingTable table;
   for (const double error :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {

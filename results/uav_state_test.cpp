@@ -5,7 +5,7 @@
 namespace skein::results {
 namespace {
 
-TEST(UavState, NamesWhatTookAUavOutOfTheRun) {
+TEST(UavState, NamesTheCauseThatTookAUavOutOfTheRun) {
   const Json faults = Json::parse(R"([
       {"kind": "kill", "target": "ada", "began_step": 20, "ended_step": null},
       {"kind": "kill", "target": "bob", "began_step": 20, "ended_step": 40},

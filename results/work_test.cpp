@@ -1,4 +1,4 @@
-// Which UAVs went without work: from reports to result.json's figures and work.csv.
+// The times in which UAVs had no work: from the agents' reports to work.csv and the figures in result.json.
 #include "results/work.hpp"
 
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ class WorkTimes : public testing::Test {
   Scratch dir_;
 };
 
-TEST_F(WorkTimes, WaitsGoByTheMatesName) {
-  tell("b", std::string(90, '1'), 0.5);  // in an order of its own
+TEST_F(WorkTimes, WaitsAreMatchedByTheNameOfTheOtherUav) {
+  tell("b", std::string(90, '1'), 0.5);  // the report has another order than the scenario
   tell("a", std::string(90, '1'), 0.0);
   reports_.agents["a"]->waits = {{10.0, 30.0, "b"}, {30.0, 60.0, "nobody"}, {40.0, {}, "b"}};
   const auto times = work_times(scenario_, reports_);
@@ -42,7 +42,7 @@ TEST_F(WorkTimes, WaitsGoByTheMatesName) {
   EXPECT_EQ(times[1]->frozen_s, 0u);
 }
 
-TEST_F(WorkTimes, WithoutReportsNothingIsKnown) {
+TEST_F(WorkTimes, WithoutReportsTheTimesAreUnknown) {
   tell("a", "11", 0.0);
   reports_.agents.clear();
   EXPECT_TRUE(work_times(scenario_, reports_)[0]);

@@ -26,7 +26,7 @@ std::vector<Said> of_part(const std::vector<Said>& all, const std::string& name)
   return result;
 }
 
-TEST_F(McapJoin, HoldsEveryMessageOfEachPartInItsOrder) {
+TEST_F(McapJoin, HoldsEveryMessageOfEachPartInTheOrderOfThePart) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const auto a = write_part("a", 1, seed), b = write_part("b", 1000, seed + 1), c = write_part("c", 2000, seed + 2);
     EXPECT_EQ(join({folder_ / "a", folder_ / "b", folder_ / "c"}, folder_ / "whole", {{"run", {{"k", "v"}}}}), "");
@@ -40,7 +40,7 @@ TEST_F(McapJoin, HoldsEveryMessageOfEachPartInItsOrder) {
 }
 
 // A viewer that sorts messages keeps chunks that overlap in time in memory, so chunks must follow each other in time.
-TEST_F(McapJoin, ChunksStandInTheOrderOfTime) {
+TEST_F(McapJoin, ChunksAreInTheOrderOfTime) {
   write_part("a", 1, 3);
   write_part("b", 1000, 5);
   join({folder_ / "b", folder_ / "a"}, folder_ / "whole", {});
@@ -54,7 +54,7 @@ TEST_F(McapJoin, ChunksStandInTheOrderOfTime) {
   EXPECT_GT(last, 0U);
 }
 
-TEST_F(McapJoin, PartsThatAreCutOffCountAsFarAsTheyGo) {
+TEST_F(McapJoin, PartsThatAreCutOffAreJoinedAsFarAsTheyGo) {
   const auto a = write_part("a", 1, 2), b = write_part("b", 1000, 4);
   const std::string bytes = read_file_bytes(folder_ / "b", 1 << 20);
   std::ofstream(folder_ / "b", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
@@ -74,7 +74,7 @@ TEST_F(McapJoin, APartThatIsNotARecordingIsReportedAndLeftOut) {
   EXPECT_EQ(read_all(folder_ / "whole"), a);
 }
 
-TEST_F(McapJoin, APartThatIsDamagedIsReportedByNameAndChunk) {
+TEST_F(McapJoin, ADamagedPartIsReportedByNameAndChunk) {
   const auto a = write_part("a", 1, 2), b = write_part("b", 1000, 4);
   std::string bytes = read_file_bytes(folder_ / "b", 1 << 20);
   std::uint64_t last_chunk = 0;

@@ -18,15 +18,15 @@ Bytes drawn_records(std::mt19937_64& random, std::size_t most) {
   return bytes;
 }
 
-/// A frame of zstd. @param stated  size that it states for its content; nullopt: none.
-/// @param ended  whether the frame is whole; else it has the content, but no end.
+/// A frame of zstd. @param stated  size of the content that its header states; nullopt: none.
+/// @param ended  whether the frame is complete; else it has the whole content, but no end.
 Bytes frame_of(const Bytes& content, std::optional<std::uint64_t> stated, bool ended = true) {
   ZSTD_CCtx* const context = ZSTD_createCCtx();
   ZSTD_CCtx_setPledgedSrcSize(context, stated.value_or(ZSTD_CONTENTSIZE_UNKNOWN));
   Bytes frame(ZSTD_compressBound(content.size()) + 64);
   ZSTD_inBuffer in{content.data(), content.size(), 0};
   ZSTD_outBuffer out{frame.data(), frame.size(), 0};
-  // Not in one call, which would make the size known.
+  // Compress in two calls: in one call, zstd would know the size and state it.
   std::size_t left = ZSTD_compressStream2(context, &out, &in, ZSTD_e_flush);
   if (ended) left += ZSTD_compressStream2(context, &out, &in, ZSTD_e_end);
   EXPECT_EQ(left, 0U);
@@ -44,7 +44,7 @@ Chunk chunk_of(const std::string& compression, std::uint64_t size, const Bytes& 
           .records = records};
 }
 
-TEST(McapUnpack, GivesTheRecordsIfTheyHaveTheStatedSize) {
+TEST(McapUnpack, ReturnsTheRecordsIfTheyHaveTheStatedSize) {
   std::mt19937_64 random(1);
   for (int trial = 0; trial < 40; ++trial) {
     const Bytes records = drawn_records(random, trial == 0 ? 1 : trial % 4 == 0 ? 5'000'000 : 3'000);
@@ -70,7 +70,7 @@ TEST(McapUnpack, GivesTheRecordsIfTheyHaveTheStatedSize) {
   }
 }
 
-TEST(McapUnpack, TakesNoMemoryOnTheWordOfAFile) {
+TEST(McapUnpack, DoesNotAllocateTheSizeThatAFileStates) {
   std::mt19937_64 random(2);
   const Bytes records = drawn_records(random, 3'000);
   for (const std::uint64_t size :

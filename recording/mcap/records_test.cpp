@@ -26,7 +26,7 @@ TEST(McapRecords, EachKindReadsBackAsItWasWritten) {
 }
 
 // The layout that the specification gives: an opcode, eight bytes of length, then the fields, little-endian.
-TEST(McapRecords, StandInTheBytesOfTheSpecification) {
+TEST(McapRecords, HaveTheBytesOfTheSpecification) {
   Bytes bytes;
   const Bytes data{0xAB, 0xCD};
   append(bytes, Message{0x0102, 3, 4, 5, data});

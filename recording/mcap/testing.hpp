@@ -1,4 +1,4 @@
-// Messages drawn at random, and files of them, for tests.
+// For tests: random messages, and files with such messages.
 #pragma once
 
 #include <gtest/gtest.h>

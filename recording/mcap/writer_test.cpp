@@ -35,7 +35,7 @@ TEST_F(McapWriter, WrittenMessagesAreReadInOrder) {
   }
 }
 
-TEST_F(McapWriter, TheSameCallsMakeTheSameBytes) {
+TEST_F(McapWriter, TheSameCallsWriteTheSameBytes) {
   const auto messages = random_messages(5, "/t", 200);
   for (const char* name : {"a", "b"}) {
     Writer writer(folder_ / name, small_chunks());
@@ -73,7 +73,7 @@ TEST_F(McapWriter, ACutOffFileIsReadAsFarAsItGoes) {
     std::ofstream(folder_ / "cut", std::ios::binary) << whole.substr(0, length);
     const auto read = read_all(folder_ / "cut");
     ASSERT_LE(read.size(), messages.size());
-    ASSERT_GE(read.size(), most) << "a longer file holds no less";
+    ASSERT_GE(read.size(), most) << "a longer part of the file must not hold fewer messages";
     EXPECT_TRUE(std::equal(read.begin(), read.end(), messages.begin()));
     EXPECT_FALSE(Reader(folder_ / "cut").complete());
     most = read.size();
@@ -90,7 +90,7 @@ TEST_F(McapWriter, FlushedMessagesSurviveTheProcess) {
   EXPECT_EQ(read_all(folder_ / "a"), messages);
 }
 
-TEST_F(McapWriter, DamageEndsTheReadingWithoutALie) {
+TEST_F(McapWriter, ADamagedFileYieldsOnlyMessagesThatWereWritten) {
   const auto messages = random_messages(6, "/t", 80);
   {
     Writer writer(folder_ / "whole", small_chunks());
@@ -104,13 +104,14 @@ TEST_F(McapWriter, DamageEndsTheReadingWithoutALie) {
     const auto read = read_all(folder_ / "damaged");
     ASSERT_LE(read.size(), messages.size());
     for (std::size_t i = 0, j = 0; i < read.size(); ++i, ++j) {
-      while (j < messages.size() && !(messages[j] == read[i])) ++j;  // a chunk may be missing, none is changed
+      while (j < messages.size() && !(messages[j] == read[i]))
+        ++j;  // a chunk may be missing, but no message is changed
       ASSERT_LT(j, messages.size()) << at;
     }
   }
 }
 
-TEST_F(McapWriter, AFullDiskEndsTheFileAndNotTheProgram) {
+TEST_F(McapWriter, AFullDiskEndsTheFileButNotTheProgram) {
   const auto messages = random_messages(8, "/t", 400);
   const rlimit before = [] {
     rlimit limit{};
@@ -135,7 +136,7 @@ TEST_F(McapWriter, AFullDiskEndsTheFileAndNotTheProgram) {
   EXPECT_TRUE(std::equal(read.begin(), read.end(), messages.begin()));
 }
 
-TEST_F(McapWriter, TellsWhenItHasNoMoreIds) {
+TEST_F(McapWriter, ReportsThatItHasNoMoreIds) {
   Writer writer(folder_ / "a", {.first_id = 10, .last_id = 11});
   EXPECT_EQ(writer.add_channel("/a", "t/msg/T", ""), 10);
   EXPECT_EQ(writer.add_channel("/b", "t/msg/T", ""), 11);
@@ -162,7 +163,7 @@ void write_with_flipped_bit(const std::filesystem::path& file, std::string bytes
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-TEST_F(McapWriter, AFlippedBitIsFoundWhereverItIs) {
+TEST_F(McapWriter, AFlippedBitIsDetectedWhereverItIs) {
   const auto seed = static_cast<std::uint64_t>(::getpid());
   std::mt19937_64 random(seed);
   {
@@ -181,7 +182,7 @@ TEST_F(McapWriter, AFlippedBitIsFoundWhereverItIs) {
   }
 }
 
-TEST_F(McapWriter, DamageNamesTheChunkAndWhatIsMissing) {
+TEST_F(McapWriter, TheReportOfDamageNamesTheChunkAndWhatIsMissing) {
   {
     Writer writer(folder_ / "sound", small_chunks());
     write_all(writer, random_messages(7, "/t", 300));

@@ -41,7 +41,7 @@ class OddRun {
   void write(const std::filesystem::path& dir) {
     write_text(dir / "result.json", result().dump(2, ' ', false, Json::error_handler_t::replace));
     const auto table = [&](const char* name, const std::string& text) {
-      if (one_in(12)) return;  // never written
+      if (one_in(12)) return;  // this file is missing
       write_text(dir / name, one_in(6) ? text.substr(0, below(text.size() + 1)) : text);
     };
     table("scene.json", scene());
