@@ -65,7 +65,7 @@ class Section {
   pugi::xml_document document_;
 };
 
-/// A run with one point that lost no score, and with points that lost some for random causes. A cause may have no point.
+/// A run with one point that lost no score, and points that lost some for random causes. Some causes have no point.
 results::RunRecord lossy_run(std::mt19937& random) {
   results::RunRecord run;
   run.causes_known = true;

@@ -13,7 +13,7 @@
 namespace skein::cli {
 namespace {
 
-/// An agent program that knows two planners, one of them at the ground station too.
+/// A script as an agent program. It has two planners, and one of them also as a program of the ground station.
 constexpr const char* kAgent =
     "[ \"$1\" != --list-planners ] || echo '{\"planners\":[\"hover\",\"orbit\"],\"ground_programs\":[\"orbit\"]}'\n";
 
@@ -29,7 +29,7 @@ class AgentFile : public ::testing::Test {
   FleetPlan plan() const { return plan_fleet(options_, program_dir()); }
   std::vector<ProgramSpec> flown() const { return fleet_programs(plan(), 1, programs_.dir()); }
 
-  /// The program that runs a member's software, and the planner in its arguments.
+  /// The agent program of a member, and the planner in its arguments.
   static std::string software(const std::vector<ProgramSpec>& programs, const std::string& program) {
     for (const ProgramSpec& spec : programs) {
       if (spec.name != program) continue;
@@ -60,7 +60,8 @@ TEST_F(AgentFile, EachPlannerFliesInTheProgramThatItNames) {
   const auto programs = flown();
   EXPECT_EQ(software(programs, alpha_), a + " orbit:x=1");
   EXPECT_EQ(software(programs, beta_), b + " hover");
-  EXPECT_EQ(software(programs, gcs_), a + " orbit:x=1") << "of who flies the UAVs that are not named";
+  EXPECT_EQ(software(programs, gcs_), a + " orbit:x=1")
+      << "the station has the planner and program of the UAVs that are not named";
   for (const std::string& program : {alpha_, beta_, gcs_}) EXPECT_TRUE(is_minded(programs, program)) << program;
   EXPECT_FALSE(is_minded(programs, programs::kSimServer));
   EXPECT_FALSE(plan().agent);
@@ -69,19 +70,19 @@ TEST_F(AgentFile, EachPlannerFliesInTheProgramThatItNames) {
   EXPECT_NE(debug_command(plan(), beta_, 1, programs_.dir()).find("gdb --args " + b + " "), std::string::npos);
 }
 
-TEST_F(AgentFile, APlannerThatNamesNoneFliesInTheFleets) {
+TEST_F(AgentFile, APlannerWithoutAProgramFliesInTheFleetsProgram) {
   const std::string a = agent("a"), b = agent("b");
   options_.planner = "hover,beta=orbit@" + a + ",gcs=orbit@" + b;
   EXPECT_EQ(software(flown(), alpha_), stock_ + " hover");
   EXPECT_EQ(software(flown(), beta_), a + " orbit");
   EXPECT_EQ(software(flown(), gcs_), b + " orbit");
-  EXPECT_FALSE(is_minded(flown(), alpha_)) << "it is ours";
+  EXPECT_FALSE(is_minded(flown(), alpha_)) << "only programs of users have a minder";
   options_.agent = b;
   EXPECT_EQ(software(flown(), alpha_), b + " hover");
   EXPECT_EQ(software(flown(), beta_), a + " orbit");
 }
 
-TEST_F(AgentFile, TheStockProgramIsAsGoodAsNone) {
+TEST_F(AgentFile, NamingTheStockProgramHasTheEffectOfNamingNone) {
   options_.planner = "hover@" + file("../" + programs_.dir().filename().string() + "/uav_agent");
   std::filesystem::create_symlink(stock_, file("link"));
   for (const std::string& planner : {options_.planner, "hover@" + file("link")}) {
@@ -91,11 +92,12 @@ TEST_F(AgentFile, TheStockProgramIsAsGoodAsNone) {
     EXPECT_FALSE(is_minded(flown(), alpha_));
   }
   options_.agent = agent("a");
-  EXPECT_EQ(software(flown(), alpha_), stock_ + " hover") << "but not where the fleet's is another";
-  EXPECT_EQ(written(plan().planners[0]), "hover@" + stock_) << "and then it must be told";
+  EXPECT_EQ(software(flown(), alpha_), stock_ + " hover")
+      << "the planner names it, so the fleet's own program does not replace it";
+  EXPECT_EQ(written(plan().planners[0]), "hover@" + stock_) << "the name is needed if the fleet has another program";
   options_.agent.reset();
   options_.planner = "waypoints:a@b.yaml@" + stock_;
-  EXPECT_EQ(written(plan().planners[0]), options_.planner) << "it would not read back without";
+  EXPECT_EQ(written(plan().planners[0]), options_.planner) << "without the program, the text would be read otherwise";
   EXPECT_EQ(software(flown(), alpha_), stock_ + " waypoints:a@b.yaml");
 }
 
@@ -104,14 +106,15 @@ TEST_F(AgentFile, EachProgramChecksItsOwnPlanners) {
   options_.planner = "orbit@" + a + ",beta=orbit@" + b + ",gcs=orbit@" + b;
   const auto programs = check_programs(plan(), programs_.dir());
   EXPECT_EQ(software(programs, alpha_), a + " orbit");
-  EXPECT_EQ(software(programs, beta_), b + " orbit") << "another one of this name";
+  EXPECT_EQ(software(programs, beta_), b + " orbit") << "two programs may have a planner of the same name";
   EXPECT_EQ(software(programs, gcs_), b + " orbit");
   options_.planner = "orbit@" + a + ",gcs=none";
-  EXPECT_EQ(check_programs(plan(), programs_.dir()).size(), 2u) << "sim_server, and one UAV for both";
+  EXPECT_EQ(check_programs(plan(), programs_.dir()).size(), 2u)
+      << "the checks are by sim_server and, for both UAVs, by one agent program";
 }
 
-// Before the folder of an earlier run is emptied for this one.
-TEST_F(AgentFile, AWrongNumberOfThreadsIsFoundInThePlan) {
+// The plan is made before the launcher empties the folder of an earlier run.
+TEST_F(AgentFile, AWrongNumberOfThreadsIsRefusedWhenThePlanIsMade) {
   write_script(file("uav_agent_fleet"), "");
   write_script(stock_, kAgent);
   options_.planner = "hover";
@@ -123,7 +126,7 @@ TEST_F(AgentFile, AWrongNumberOfThreadsIsFoundInThePlan) {
   ::unsetenv("SKEIN_THREADS");
 }
 
-TEST_F(AgentFile, AProgramThatIsNotAnAgentIsNamedWithWhatWouldBeRight) {
+TEST_F(AgentFile, AProgramThatIsNotAnAgentIsNamedWithACorrection) {
   write_text(file("text"), "no program");
   write_script(file("other"), "echo two of a kind\nexit 3\n");
   const auto refused = [&](const std::string& planner, const std::vector<std::string>& parts) {

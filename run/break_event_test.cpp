@@ -14,8 +14,8 @@ const Json kResult = Json::parse(R"({
   "faults": [{"target": "a", "began_step": null}, {"target": "a", "began_step": 80}, {"target": "b", "began_step": 60}]
 })");
 
-TEST(BreakEvent, TheFirstOfAUavCounts) {
-  EXPECT_EQ(event_time_s(kResult, "a", "collision"), 7.25) << "as the one that was hit";
+TEST(BreakEvent, TheFirstEventOfAUavCounts) {
+  EXPECT_EQ(event_time_s(kResult, "a", "collision"), 7.25) << "a collision also counts for the UAV that was hit";
   EXPECT_NEAR(event_time_s(kResult, "a", "lost").value(), 4.025, 1e-9) << "between its exchange and the next";
   EXPECT_NEAR(event_time_s(kResult, "station", "lost").value(), 2.025, 1e-9);
   EXPECT_EQ(event_time_s(kResult, "a", "fault"), 4.0);

@@ -36,7 +36,7 @@ class DrawnWorld : public ::testing::Test {
 };
 
 TEST_F(DrawnWorld, IsDrawnOnce) {
-  EXPECT_EQ(scenario_source("towers", 3), "towers") << "only the world of a wild scene is drawn";
+  EXPECT_EQ(scenario_source("towers", 3), "towers") << "only wild scenes are drawn";
   const fs::path file = scenario_source("wild", 3);
   EXPECT_EQ(file.filename(), "wild_3.yaml");
   EXPECT_TRUE(fs::is_regular_file(file));

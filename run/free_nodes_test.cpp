@@ -13,11 +13,11 @@ using testing::HasSubstr;
 
 const std::vector<UavPlanner> kPlanners = {{"jurong", "ros"}, {"raffles", "ros:package/node"}, {"sentosa", "ros"}};
 
-TEST(FreeNodes, AreThoseWithoutAPackage) {
+TEST(FreeNodes, AreForTheUavsWhosePlannerNamesNoPackage) {
   EXPECT_THAT(uavs_of_free_nodes(kPlanners), ElementsAre("jurong", "sentosa"));
 }
 
-TEST(FreeNodes, NeedAClockThatDoesNotWaitForThem) {
+TEST(FreeNodes, NeedTheRealtimeClock) {
   for (const char* clock : {"realtime", "realtime:0.5"}) EXPECT_NO_THROW(check_free_nodes(kPlanners, clock));
   EXPECT_NO_THROW(check_free_nodes({{"jurong", "ros:package/node"}}, "lockstep"));
   try {

@@ -24,7 +24,7 @@ TEST(HandFlights, KnowsTheUavsThatAreFlownByHand) {
   EXPECT_EQ(hands_in("kios,bob=hand"), Texts{"bob"});
   EXPECT_EQ(hands_in("hand"), kThree);
   EXPECT_EQ(hands_in("bob=hand:safe=false,approach_mps=2"), Texts{"bob"});
-  EXPECT_EQ(hands_in("bob=hand:hand-bob.csv"), Texts{}) << "a file flies it";
+  EXPECT_EQ(hands_in("bob=hand:hand-bob.csv"), Texts{}) << "the UAV is flown by a file";
   EXPECT_EQ(hands_in("bob=hand:file=hand-bob.csv,safe=false"), Texts{});
   EXPECT_EQ(hands_in("bob=hand@team/agent"), Texts{"bob"});
   EXPECT_EQ(hands_in("handy,bob=exec:hand"), Texts{});
@@ -35,13 +35,13 @@ TEST(HandFlights, KnowsTheUavsThatAreFlownByHand) {
   EXPECT_EQ(hands_in("bob=hand:" + yaml.string()), Texts{});
 }
 
-TEST(HandFlights, AViewerMustBeAbleToFly) {
+TEST(HandFlights, AreRefusedIfNoViewerCanFly) {
   const auto planners = parse_planners("kios,bob=hand,cid=hand:safe=false", kThree).uavs;
   EXPECT_NO_THROW(check_hands(planners, true));
   EXPECT_NO_THROW(check_hands(parse_planners("bob=hand:x.csv", kThree).uavs, false));
   try {
     check_hands(planners, false);
-    FAIL() << "nobody can fly it";
+    FAIL() << "accepted, although no viewer can fly the UAVs";
   } catch (const InputError& error) {
     const std::string text = error.what();
     EXPECT_TRUE(text.starts_with("--planner bob=hand: ")) << text;
@@ -51,7 +51,7 @@ TEST(HandFlights, AViewerMustBeAbleToFly) {
   }
 }
 
-TEST(HandFlights, AreRepeatedFromWhatWasKept) {
+TEST(HandFlights, AreRepeatedFromTheKeptFiles) {
   EXPECT_EQ(repeated_from("kios,bob=star"), "kios,bob=star");
   EXPECT_EQ(repeated_from("kios,bob=hand"), "kios,bob=hand:runs/x/hand-bob.csv");
   EXPECT_EQ(repeated_from("bob=hand"), "flock,bob=hand:runs/x/hand-bob.csv");
@@ -68,7 +68,7 @@ TEST(HandFlights, AreRepeatedFromWhatWasKept) {
       if (before.uavs[i].spec.starts_with("hand")) continue;
       EXPECT_EQ(written(planners.uavs[i]), written(before.uavs[i])) << again;
     }
-    EXPECT_EQ(repeated_from(again), again) << "nothing is left to be done by hand";
+    EXPECT_EQ(repeated_from(again), again) << "no UAV is left that is flown by hand";
   }
 }
 

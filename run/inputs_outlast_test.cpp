@@ -47,18 +47,18 @@ TEST_F(InputsOutlast, AFileThatTheRunWouldDeleteIsNamed) {
   EXPECT_NE(refusal(beside_ / "leads-there.yaml"), "");
   EXPECT_NE(refusal(beside_ / "folder" / "recording.mcap"), "");
   fs::create_symlink(beside_ / "by-hand.yaml", dir_ / "events.csv");
-  EXPECT_NE(refusal(dir_ / "events.csv"), "") << "the run deletes the link";
+  EXPECT_NE(refusal(dir_ / "events.csv"), "") << "the run would delete the link";
 }
 
 TEST_F(InputsOutlast, OtherFilesAreIgnored) {
-  EXPECT_EQ(refusal(dir_ / "my.yaml"), "") << "no file of a run's: it stays";
+  EXPECT_EQ(refusal(dir_ / "my.yaml"), "") << "a run does not delete files of this name";
   EXPECT_EQ(refusal(beside_ / "by-hand.yaml"), "");
-  EXPECT_EQ(refusal(dir_ / "captures.csv"), "") << "it is not there";
+  EXPECT_EQ(refusal(dir_ / "captures.csv"), "") << "the file does not exist";
   EXPECT_EQ(refusal({}), "");
   EXPECT_NO_THROW(check_outlast({dir_ / "by-hand.yaml"}, programs_.dir() / "not_there_yet"));
 }
 
-TEST_F(InputsOutlast, AllFilesOfAPlanAreLookedAt) {
+TEST_F(InputsOutlast, AllFilesOfAPlanAreChecked) {
   const fs::path recording = dir_ / "recording.mcap", hand = dir_ / "hand-alpha.csv", faults = dir_ / "by-hand.yaml";
   const auto plan = [&](const std::function<void(RunOptions&)>& change) {
     RunOptions options;

@@ -21,13 +21,13 @@ TEST(LeaveDeadline, IsBroughtForwardButNeverPutOff) {
   EXPECT_EQ(deadline.left(now + seconds(9)), seconds(0));
 }
 
-TEST(LeaveDeadline, DoesNotCountWhatTheLauncherStoodStill) {
+TEST(LeaveDeadline, DoesNotCountTimesWhenTheLauncherStoodStill) {
   const LeaveDeadline::Clock::time_point now;
   LeaveDeadline deadline;
   deadline.excuse(seconds(100), milliseconds(200));
   EXPECT_FALSE(deadline.is_set());
   deadline.set(seconds(10), now);
-  deadline.excuse(milliseconds(1500), milliseconds(200));  // a busy machine
+  deadline.excuse(milliseconds(1500), milliseconds(200));  // so short a pause is normal on a busy machine
   EXPECT_EQ(deadline.left(now), seconds(10));
   deadline.excuse(seconds(60), milliseconds(200));
   EXPECT_EQ(deadline.left(now + seconds(60)), milliseconds(9800));

@@ -23,10 +23,10 @@ TEST(MemoryOfAFleet, AFleetThatDoesNotFitIsRefusedWithTheEstimate) {
     const FleetPlan plan = fleet_for_memory(100, one_process);
     const std::uint64_t need = memory_need(plan);
     EXPECT_NO_THROW(check_memory(plan, need));
-    EXPECT_NO_THROW(check_memory(plan, std::nullopt)) << "how much there is cannot be seen";
+    EXPECT_NO_THROW(check_memory(plan, std::nullopt)) << "nothing is refused if the free memory is unknown";
     try {
       check_memory(plan, need - 1'000'000);
-      ADD_FAILURE() << "the system would end the fleet in its middle";
+      ADD_FAILURE() << "accepted, although the system would kill the fleet in flight";
     } catch (const InputError& error) {
       const std::string said = error.what(), megabytes = std::to_string(need / 1'000'000);
       EXPECT_EQ(said.find("a fleet of 100 UAVs needs about " + megabytes + " MB of memory"), 0U) << said;
@@ -36,7 +36,7 @@ TEST(MemoryOfAFleet, AFleetThatDoesNotFitIsRefusedWithTheEstimate) {
   }
 }
 
-TEST(MemoryOfAFleet, MoreUavsNeedMoreAndOneProcessLess) {
+TEST(MemoryOfAFleet, MoreUavsNeedMoreMemoryAndOneProcessNeedsLess) {
   for (int uavs = 1; uavs < 128; ++uavs) {
     EXPECT_LT(memory_need(fleet_for_memory(uavs, false)), memory_need(fleet_for_memory(uavs + 1, false)));
     EXPECT_LT(memory_need(fleet_for_memory(uavs, true)), memory_need(fleet_for_memory(uavs, false)));
@@ -49,7 +49,7 @@ TEST(MemoryOfAFleet, FleetsOnSeveralHostsAreNotChecked) {
   EXPECT_NO_THROW(check_memory(plan, 0));
 }
 
-TEST(MemoryOfAFleet, ThisHostHasSome) {
+TEST(MemoryOfAFleet, TheFreeMemoryOfThisHostIsRead) {
   const auto left = memory_left();
   ASSERT_TRUE(left);
   EXPECT_GT(*left, 1'000'000U);

@@ -30,37 +30,37 @@ TEST(OpenFilesOfAFleet, ALimitThatIsTooLowIsNamedWithTheNeed) {
     const OpenFilesNeed need = open_files_need(plan);
     try {
       judge(plan, 20);
-      ADD_FAILURE() << "the fleet would fail in its middle";
+      ADD_FAILURE() << "accepted, although the fleet would fail in flight";
     } catch (const InputError& error) {
       const std::string said = error.what();
       EXPECT_NE(said.find("a process may have 20 open files (ulimit -n)"), std::string::npos) << said;
       EXPECT_NE(said.find("`ulimit -n " + std::to_string(need.ample) + "`"), std::string::npos) << said;
     }
     EXPECT_THROW(judge(plan, need.least - 1), InputError);
-    EXPECT_NE(judge(plan, need.least), "") << "a warning";
+    EXPECT_NE(judge(plan, need.least), "") << "the least limit gives a warning";
     EXPECT_NE(judge(plan, need.ample - 1), "");
     EXPECT_EQ(judge(plan, need.ample), "");
   }
 }
 
-/// As measured with 5 UAVs: the launcher had 48 open files; the server had 64 over Cyclone DDS and 74 over Fast DDS,
+/// Measured with 5 UAVs: the launcher had 48 open files; the server had 64 over Cyclone DDS and 74 over Fast DDS,
 /// and ended with two fewer.
-TEST(OpenFilesOfAFleet, TheNeedIsThatOfTheProcessWithMost) {
+TEST(OpenFilesOfAFleet, TheNeedIsThatOfTheProcessWithMostFiles) {
   FleetPlan plan = fleet_of_five(false);
   for (const auto& [vendors, files] : std::map<std::string, std::uint64_t>{{"cyclonedds", 64}, {"fastdds", 74}}) {
     plan.options.dds = vendors;
     const OpenFilesNeed need = open_files_need(plan);
     EXPECT_GE(need.least, files);
-    EXPECT_LE(need.least, files + 5) << "a fleet that could fly is refused";
+    EXPECT_LE(need.least, files + 5) << "a fleet that can fly must not be refused";
     EXPECT_GT(need.ample, need.least);
-    EXPECT_LT(open_files_need(fleet_of_five(true)).ample, need.least) << "one process has no sockets";
+    EXPECT_LT(open_files_need(fleet_of_five(true)).ample, need.least) << "a fleet in one process needs no sockets";
   }
   plan.options.dds = "mixed";
-  EXPECT_GE(open_files_need(plan).least, 71U) << "the router over Fast DDS";
+  EXPECT_GE(open_files_need(plan).least, 71U) << "the router needs most files over Fast DDS";
 }
 
-/// As measured: the process of 5 UAVs had 25 open files without a recording, 30 with one, and 33 with maps, too.
-TEST(OpenFilesOfAFleet, OneProcessNeedsMoreForWhatItKeeps) {
+/// Measured: the process of 5 UAVs had 25 open files without a recording, 30 with one, and 33 with maps, too.
+TEST(OpenFilesOfAFleet, OneProcessNeedsMoreFilesForRecordingsAndMaps) {
   FleetPlan plan = fleet_of_five(true);
   plan.options.record = "none";
   EXPECT_EQ(open_files_need(plan).least, 25U);
@@ -86,7 +86,7 @@ TEST(OpenFilesOfAFleet, TheServersOfAFleetOnSeveralHostsNeedAsMany) {
   EXPECT_EQ(said.find("a process may have 60 open files"), 0U) << said;
 }
 
-TEST(OpenFilesOfAFleet, InContainersOnlyTheLaunchersCount) {
+TEST(OpenFilesOfAFleet, InContainersOnlyTheFilesOfTheLauncherCount) {
   const FleetPlan plan = fleet_of_five(false);
   const auto said_with = [&](rlim_t files) {
     return done_with_open_files(files, [&] {
@@ -98,7 +98,7 @@ TEST(OpenFilesOfAFleet, InContainersOnlyTheLaunchersCount) {
   const std::string said = said_with(30);
   EXPECT_NE(said.find("the launcher of a fleet of 5 UAVs needs about 49"), std::string::npos) << said;
   const LimitedOpenFiles low(30);
-  EXPECT_NO_THROW(allow_launcher_open_files(plan)) << "it may raise the limit";
+  EXPECT_NO_THROW(allow_launcher_open_files(plan)) << "the launcher may raise its limit";
 }
 
 /// The usual limit is 1024, and Cyclone DDS calls select(), which aborts the program at greater descriptors.

@@ -21,7 +21,7 @@ std::vector<std::string> specs(const std::string& text) {
 
 using Specs = std::vector<std::string>;
 
-TEST(PlannerSpec, OneNameIsForAllUavs) { EXPECT_EQ(specs("hover"), (Specs{"hover", "hover", "hover"})); }
+TEST(PlannerSpec, OneNameIsThePlannerOfAllUavs) { EXPECT_EQ(specs("hover"), (Specs{"hover", "hover", "hover"})); }
 
 TEST(PlannerSpec, NamedUavsDifferAndTheRestGetTheDefault) {
   EXPECT_EQ(specs("raffles=hover"), (Specs{kDefaultPlanner, "hover", kDefaultPlanner}));
@@ -29,7 +29,7 @@ TEST(PlannerSpec, NamedUavsDifferAndTheRestGetTheDefault) {
   EXPECT_EQ(specs("sentosa=a,jurong=b,raffles=c"), (Specs{"b", "c", "a"}));
 }
 
-TEST(PlannerSpec, ParametersGoOnAfterACommaUntilAUavIsNamed) {
+TEST(PlannerSpec, ParametersContinueAfterACommaUntilAUavIsNamed) {
   EXPECT_EQ(specs("hover:height_m=4,climb_mps=1"),
             (Specs{"hover:height_m=4,climb_mps=1", "hover:height_m=4,climb_mps=1", "hover:height_m=4,climb_mps=1"}));
   EXPECT_EQ(specs("jurong=hover:height_m=4,climb_mps=1,raffles=patrol,sentosa=hover"),
@@ -63,7 +63,7 @@ TEST(PlannerSpec, TheTextAfterTheLastAtIsAnAgentProgram) {
   struct Case {
     std::string spec, name, agent;
   };
-  // With any parameters, at any place of the value.
+  // The program may follow any parameters, and stand at any place of the value.
   for (const auto& [spec, name, agent] : {Case{"kios@a", "kios", "a"},
                                           {"kios@../a=b/c:d", "kios", "../a=b/c:d"},
                                           {"kios:voxel_m=4,lanes=3@a/b", "kios:voxel_m=4,lanes=3", "a/b"},
@@ -109,19 +109,19 @@ TEST(PlannerSpec, AColonWithoutParametersIsRefused) {
       }
     }
   }
-  EXPECT_EQ(specs("exec:./mine --at:").front(), "exec:./mine --at:") << "a command may end with any character";
-  EXPECT_EQ(specs("hover:label=a:").front(), "hover:label=a:") << "a value, too";
+  EXPECT_EQ(specs("exec:./mine --at:").front(), "exec:./mine --at:") << "a command may end with a colon";
+  EXPECT_EQ(specs("hover:label=a:").front(), "hover:label=a:") << "the value of a parameter may end with a colon";
 }
 
-TEST(PlannerSpec, ACommandKeepsItsAts) {
+TEST(PlannerSpec, ACommandKeepsItsAtSigns) {
   const Planners planners = parse_planners("jurong=exec:./mine me@home,a=b@c,raffles=hover@a", kFleet);
   EXPECT_EQ(written(planners.uavs[0]), "exec:./mine me@home,a=b@c");
   EXPECT_FALSE(planners.uavs[0].agent);
   EXPECT_EQ(planners.uavs[1].agent, "a");
-  EXPECT_FALSE(planners.uavs[2].agent) << "of the fleet's";
+  EXPECT_FALSE(planners.uavs[2].agent) << "this UAV flies in the fleet's agent program";
 }
 
-TEST(PlannerSpec, AgentsMayBeCalledOtherwise) {
+TEST(PlannerSpec, TheNamesOfAgentProgramsMayBeReplaced) {
   const auto short_of = [](const std::string& text) {
     return with_agents_named(text, [](const std::filesystem::path& agent) { return agent.filename().string(); });
   };
@@ -135,7 +135,7 @@ TEST(PlannerSpec, AgentsMayBeCalledOtherwise) {
   EXPECT_EQ(with_agents_named("kios@./a", whole), "kios@" + (std::filesystem::current_path() / "a").string());
 }
 
-TEST(PlannerSpec, WrongTextIsRefused) {
+TEST(PlannerSpec, InvalidTextIsRefused) {
   for (const char* text : {"",
                            "jurong=",
                            "nobody=hover",
@@ -169,7 +169,7 @@ TEST(PlannerSpec, AnUnknownUavIsAnsweredWithTheNearestName) {
   }
 }
 
-TEST(PlannerSpec, LabelIsFitForAFolder) {
+TEST(PlannerSpec, ALabelIsAValidNameOfAFolder) {
   EXPECT_EQ(planner_label("patrol"), "patrol");
   EXPECT_EQ(planner_label("kios@a/b"), "kios@a_b");
   EXPECT_EQ(planner_label("jurong=waypoints:a/../b.yaml"), "jurong_waypoints_a_.._b.yaml");

@@ -32,7 +32,7 @@ TEST(ProgressView, PlainOutputHasALineEveryTenthOfTheMission) {
   EXPECT_EQ(text.find('\r'), std::string::npos);
 }
 
-TEST(ProgressView, TheLineTellsTimeSpeedScoreAndContact) {
+TEST(ProgressView, TheLineShowsTimeSpeedScoreAndContact) {
   std::ostringstream out;
   ProgressView view(out, false);
   view.tally({.points = 12, .score = 3.5, .earned = 4.0});
@@ -41,7 +41,7 @@ TEST(ProgressView, TheLineTellsTimeSpeedScoreAndContact) {
   EXPECT_EQ(out.str(), "simulated 40.0 s, mission 38 of 100 s, x20.0, points 12, score 3.5, in contact: alpha\n");
 }
 
-TEST(ProgressView, ATerminalLineIsRewrittenAndMessagesStandAboveIt) {
+TEST(ProgressView, TheLineOfATerminalIsRewrittenAndMessagesAppearAboveIt) {
   std::ostringstream out;
   ProgressView view(out, true);
   view.waiting_for({.members = {"alpha", "station"}, .missing = {}, .what = "to join", .seconds = 2.4, .due = false});
@@ -54,7 +54,7 @@ TEST(ProgressView, ATerminalLineIsRewrittenAndMessagesStandAboveIt) {
       "contact: alpha\nhello\n");
 }
 
-TEST(ProgressView, ElsewhereAWaitIsALineWhenOneIsDue) {
+TEST(ProgressView, WithoutATerminalAWaitIsPrintedWhenItIsDue) {
   std::ostringstream out;
   ProgressView view(out, false);
   for (const double seconds : {4.5, 5.0, 5.5}) {
@@ -90,7 +90,7 @@ TEST(Summary, NamesThePageThatExplainsTheScoreIfThereIsOne) {
   EXPECT_TRUE(told().ends_with("report    " + (folder.path() / "report.html").string() + "\n")) << told();
 }
 
-TEST(Summary, TellsHowMuchOfTheAttainableItIs) {
+TEST(Summary, ShowsTheShareOfTheAttainableScore) {
   Json result = {{"score", 30.0},
                  {"score_earned", 40.0},
                  {"points_detected", 31},

@@ -30,7 +30,7 @@ class PythonPlanners : public testing::Test {
   fs::path orbit() const { return dir() / "mine/orbit.py"; }
   std::string spec(const std::string& more = "") const { return "py:" + orbit().string() + more; }
 
-  /// As write_results() does, of a fleet of one.
+  /// The keys of result.json about planners, as write_results() writes them for a fleet of one UAV.
   Json result() const {
     return {{"planner", {{"jurong", spec(":Orbit:x=1")}}}, {"planner_files", kept({{"jurong", spec(":Orbit:x=1")}})}};
   }
@@ -66,13 +66,13 @@ TEST_F(PythonPlanners, FilesAreFoundFromTheLaunchersFolder) {
   EXPECT_THROW(find_python_files(ground), InputError);
 }
 
-TEST_F(PythonPlanners, ModulesAndPackagesOfItsFolderBelongToIt) {
+TEST_F(PythonPlanners, ModulesAndPackagesInItsFolderBelongToAPlanner) {
   std::vector<std::string> names;
   for (const fs::path& source : python_sources(orbit())) names.push_back(source.lexically_relative(dir() / "mine"));
   EXPECT_EQ(names, (std::vector<std::string>{"orbit.py", "helper.py", "parts/__init__.py", "parts/deep.py"}));
 }
 
-TEST_F(PythonPlanners, EachOfItsFilesCountsInTheDigest) {
+TEST_F(PythonPlanners, TheDigestCoversEachFileOfAPlanner) {
   const std::string before = python_digest(orbit());
   for (const char* file : {"mine/orbit.py", "mine/helper.py", "mine/parts/deep.py"}) {
     write(file, "other");
@@ -85,12 +85,12 @@ TEST_F(PythonPlanners, EachOfItsFilesCountsInTheDigest) {
   EXPECT_EQ(python_digest(orbit()), before);
 }
 
-TEST_F(PythonPlanners, OfACrowdedFolderThePlannerAloneIsKept) {
+TEST_F(PythonPlanners, OfAFolderWithTooManyFilesOnlyThePlannerIsKept) {
   for (int i = 0; i < 150; ++i) write("mine/m" + std::to_string(i) + ".py", "");
   EXPECT_EQ(python_sources(orbit()), std::vector<fs::path>{orbit()});
 }
 
-TEST_F(PythonPlanners, ARunIsFlownAgainWithItsFilesAsTheyWere) {
+TEST_F(PythonPlanners, ARepeatedRunUsesTheKeptFilesIfTheOriginalsHaveChanged) {
   const Json flown = result();
   EXPECT_EQ(again("py:mine/orbit.py:Orbit:x=1", flown), "py:mine/orbit.py:Orbit:x=1,jurong=" + spec(":Orbit:x=1"));
   EXPECT_EQ(told_, "");
@@ -99,12 +99,12 @@ TEST_F(PythonPlanners, ARunIsFlownAgainWithItsFilesAsTheyWere) {
   EXPECT_EQ(again(spec(":Orbit:x=1"), flown),
             spec(":Orbit:x=1") + ",jurong=py:" + fs::absolute(kept).string() + ":Orbit:x=1");
   EXPECT_NE(told_.find("has changed"), std::string::npos);
-  EXPECT_TRUE(fs::exists(kept.parent_path() / "parts/deep.py")) << "what it imports is there, too";
+  EXPECT_TRUE(fs::exists(kept.parent_path() / "parts/deep.py")) << "the modules that the planner imports are kept, too";
   fs::remove_all(dir() / "mine");
   EXPECT_NE(again(spec(":Orbit:x=1"), flown).find(kept.string()), std::string::npos);
 }
 
-TEST_F(PythonPlanners, FleetsWithoutPythonAreLeftAsTheyAre) {
+TEST_F(PythonPlanners, FleetsWithoutPythonAreNotChanged) {
   EXPECT_EQ(kept({{"jurong", "hover"}}), Json::array());
   EXPECT_FALSE(fs::exists(dir() / "run"));
   EXPECT_EQ(again("kios:x=1,y=2", Json::object()), "kios:x=1,y=2");

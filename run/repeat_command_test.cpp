@@ -6,7 +6,7 @@
 namespace skein::cli {
 namespace {
 
-TEST(RepeatCommand, NeedsNoPage) {
+TEST(RepeatCommand, HasNoOptionsOfThePage) {
   const Repeated by{.planners = "bob=hand:x.csv"};
   EXPECT_EQ(command_repeated("skein run towers --planner kios,bob=hand --view --duration 60", by),
             "skein run towers --planner bob=hand:x.csv --duration 60");
@@ -23,7 +23,7 @@ TEST(RepeatCommand, NeedsNoPage) {
   }
 }
 
-TEST(RepeatCommand, HasTheFaultFileInThePlaceOfTheRunsOwn) {
+TEST(RepeatCommand, HasTheNewFaultFileInThePlaceOfTheFormerOne) {
   const auto with_faults = [](const std::string& command, const char* file) {
     return command_repeated(command, {.faults = file});
   };

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder to write to: a scratch folder itself is locked by the test that made it.
+/// A folder for results, inside a scratch folder. The test holds the lock of the scratch folder itself.
 class OutDir {
  public:
   OutDir() { fs::create_directory(path_); }
@@ -31,7 +31,7 @@ class OutDir {
   const fs::path path_ = scratch_.path() / "out";
 };
 
-/// While it lives, this is the current folder.
+/// While this object lives, the given folder is the current folder.
 class CurrentFolder {
  public:
   explicit CurrentFolder(const fs::path& folder) { fs::current_path(folder); }
@@ -43,17 +43,17 @@ class CurrentFolder {
   const fs::path before_ = fs::current_path();
 };
 
-TEST(ResultsDir, DefaultNameTellsTheRun) {
+TEST(ResultsDir, TheDefaultNameDescribesTheRun) {
   EXPECT_EQ(default_results_dir("towers", "patrol", 3), "runs/towers-patrol-3");
   EXPECT_EQ(default_results_dir("towers", "a=b:c/d", 0), "runs/towers-a_b_c_d-0");
 }
 
-TEST(ResultsDir, TheFirstFreeNameIsNumbered) {
+TEST(ResultsDir, TheFirstFreeNumberedNameIsChosen) {
   const OutDir scratch;
   const fs::path base = scratch.path() / "runs" / "towers-kios-0";
   EXPECT_EQ(free_results_dir(base), base);
   fs::create_directories(base);
-  EXPECT_EQ(free_results_dir(base), base) << "an empty folder is as good as none";
+  EXPECT_EQ(free_results_dir(base), base) << "an empty folder counts as free";
   write_text(base / "sim_server.mcap", "of a launcher that was killed");
   EXPECT_EQ(free_results_dir(base), base.string() + "-2");
   fs::create_directories(base.string() + "-2");
@@ -61,7 +61,7 @@ TEST(ResultsDir, TheFirstFreeNameIsNumbered) {
   write_text(base.string() + "-3", "a file");
   fs::create_directory_symlink(base, base.string() + "-4");
   EXPECT_EQ(free_results_dir(base), base.string() + "-5");
-  EXPECT_FALSE(fs::exists(base.string() + "-5")) << "it only looks";
+  EXPECT_FALSE(fs::exists(base.string() + "-5")) << "free_results_dir() must not create the folder";
 }
 
 TEST(ResultsDir, IsCreatedWithItsParents) {
@@ -118,7 +118,7 @@ TEST(ResultsDir, WithoutForceAFileThatARunWouldWriteOrDeleteIsKeptAndNamed) {
   }
 }
 
-TEST(ResultsDir, AFolderWithOtherFilesOnlyIsTakenAndStaysAsOpenAsItIs) {
+TEST(ResultsDir, AFolderWithOnlyOtherFilesIsAcceptedAndKeepsItsPermissions) {
   const OutDir scratch;
   write_text(scratch.path() / "notes.txt", "mine");
   fs::create_directory(scratch.path() / "uav_agent-sources");
@@ -131,11 +131,11 @@ TEST(ResultsDir, AFolderWithOtherFilesOnlyIsTakenAndStaysAsOpenAsItIs) {
   EXPECT_EQ(after.st_mode, before.st_mode);
   EXPECT_EQ(after.st_gid, before.st_gid);
   EXPECT_EQ(read_text(scratch.path() / "notes.txt"), "mine");
-  if (::geteuid() != 0) GTEST_SKIP() << "only root's agents have users of their own";
+  if (::geteuid() != 0) GTEST_SKIP() << "agents have users of their own only if root starts them";
   const fs::path created = scratch.path() / "created";
   { const ResultsDir dir(created, false); }
   ASSERT_EQ(::stat(created.c_str(), &after), 0);
-  EXPECT_EQ(after.st_mode & S_IRWXG, 0U) << "closed to agents";
+  EXPECT_EQ(after.st_mode & S_IRWXG, 0U) << "the folder must be closed to agents";
 }
 
 TEST(ResultsDir, TwoRunsNeverShareAFolder) {
@@ -145,7 +145,7 @@ TEST(ResultsDir, TwoRunsNeverShareAFolder) {
     EXPECT_THROW(ResultsDir(scratch.path(), false), InputError);
     try {
       ResultsDir::check(scratch.path(), false);
-      ADD_FAILURE() << "accepted";
+      ADD_FAILURE() << "the second run was accepted";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("another run is writing there"), std::string::npos) << error.what();
     }
@@ -155,7 +155,7 @@ TEST(ResultsDir, TwoRunsNeverShareAFolder) {
 
 // A command that only asks whether a run writes to a folder takes the folder's lock for a moment. This must not keep
 // another command from taking the folder.
-TEST(ResultsDir, AQuestionWhetherAFolderIsInUseKeepsNoLauncherOut) {
+TEST(ResultsDir, AskingWhetherAFolderIsInUseKeepsNoLauncherOut) {
   const OutDir scratch;
   write_text(scratch.path() / "result.json", "{}");
   std::atomic<bool> over = false;
@@ -164,7 +164,7 @@ TEST(ResultsDir, AQuestionWhetherAFolderIsInUseKeepsNoLauncherOut) {
     while (!over) {
       try {
         ResultsDir::check(scratch.path(), false);
-      } catch (const InputError&) {  // there is a result, or the folder is in use
+      } catch (const InputError&) {  // the folder has a result, or is in use
         ++asked;
       }
     }
@@ -183,12 +183,12 @@ TEST(ResultsDir, AQuestionWhetherAFolderIsInUseKeepsNoLauncherOut) {
   EXPECT_GT(asked, 0U);
 }
 
-TEST(ResultsDir, RunsWithoutAFolderOfTheirsThatBeginAtOnceAllGetOne) {
+TEST(ResultsDir, RunsWithoutOutThatStartAtOnceGetDifferentFolders) {
   const OutDir scratch;
   const CurrentFolder current(scratch.path());
   const RunOptions run;
   const auto first = ResultsDir::take(run, "towers");
-  fs::remove(first->path() / "result.json.tmp-room");  // as if it had only just locked the folder
+  fs::remove(first->path() / "result.json.tmp-room");  // as if the first run had only just locked the folder
   const auto second = ResultsDir::take(run, "towers");
   EXPECT_EQ(second->given(), first->given().string() + "-2");
   RunOptions forced, named;
@@ -198,14 +198,14 @@ TEST(ResultsDir, RunsWithoutAFolderOfTheirsThatBeginAtOnceAllGetOne) {
   EXPECT_THROW(ResultsDir::take(named, "towers"), FolderInUse);
 }
 
-TEST(ResultsDir, AlsoThoseThatACommandPutsElsewhere) {
+TEST(ResultsDir, RunsThatACommandPutsElsewhereGetDifferentFolders) {
   const OutDir scratch;
   RunOptions run;
   run.usual_out = scratch.path() / "fork";
   EXPECT_EQ(results_dir_of(run, "towers"), scratch.path() / "fork");
   const auto first = ResultsDir::take(run, "towers");
-  fs::remove(first->path() / "result.json.tmp-room");  // as if it had only just locked the folder
-  EXPECT_EQ(results_dir_of(run, "towers"), first->given()) << "it seems to be free";
+  fs::remove(first->path() / "result.json.tmp-room");  // as if the first run had only just locked the folder
+  EXPECT_EQ(results_dir_of(run, "towers"), first->given()) << "the folder looks free";
   EXPECT_EQ(ResultsDir::take(run, "towers")->given(), scratch.path() / "fork-2");
   run.force = true;
   EXPECT_THROW(ResultsDir::take(run, "towers"), FolderInUse);
@@ -213,14 +213,14 @@ TEST(ResultsDir, AlsoThoseThatACommandPutsElsewhere) {
   EXPECT_EQ(ResultsDir::take(run, "towers")->given(), *run.out);
 }
 
-TEST(ResultsDir, OfSeveralFlightsIsEmptyOrForced) {
+TEST(ResultsDir, AFolderForSeveralFlightsMustBeEmptyOrForced) {
   const OutDir scratch;
   const fs::path usual = scratch.path() / "blame", named = scratch.path() / "named", mine = named / "as-it-was/mine";
   fs::create_directories(mine.parent_path());
   write_text(mine, "mine");
   try {
     ResultsDir::take_for_flights(named, usual, false);
-    ADD_FAILURE() << "accepted";
+    ADD_FAILURE() << "the folder was accepted";
   } catch (const InputError& error) {
     const std::string told = error.what();
     EXPECT_NE(told.find(named.string() + ": 'as-it-was' exists already"), std::string::npos) << told;
@@ -228,7 +228,7 @@ TEST(ResultsDir, OfSeveralFlightsIsEmptyOrForced) {
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(named), {}), 1);
   EXPECT_EQ(ResultsDir::take_for_flights(named, usual, true)->given(), named);
-  EXPECT_EQ(read_text(mine), "mine") << "the flights that need the place delete it";
+  EXPECT_EQ(read_text(mine), "mine") << "only a flight that needs the place deletes the file";
 
   fs::create_directory(scratch.path() / "new");
   write_text(scratch.path() / "new/job.log", "of the job that flies");
@@ -240,7 +240,7 @@ TEST(ResultsDir, OfSeveralFlightsIsEmptyOrForced) {
   EXPECT_THROW(ResultsDir::take_for_flights(usual, usual, true), FolderInUse);
 }
 
-TEST(ResultsDir, LogsAndWhatAFileSystemHasAreNoForeignEntries) {
+TEST(ResultsDir, LogsAndEntriesOfFileSystemsAreNotForeign) {
   const OutDir scratch;
   EXPECT_EQ(foreign_entry(scratch.path()), "");
   EXPECT_EQ(foreign_entry(scratch.path() / "none"), "");
@@ -278,7 +278,7 @@ TEST(ResultsDir, AFileIsRefusedAsAFolder) {
   EXPECT_THROW(ResultsDir(scratch.path() / "file/below", true), InputError);
 }
 
-TEST(ResultsDir, ANameThatCannotBeIsTheUsersMistake) {
+TEST(ResultsDir, APathThatCannotExistIsTheUsersMistake) {
   const OutDir scratch;
   fs::create_symlink(scratch.path() / "b", scratch.path() / "a");
   fs::create_symlink(scratch.path() / "a", scratch.path() / "b");
@@ -289,7 +289,7 @@ TEST(ResultsDir, ANameThatCannotBeIsTheUsersMistake) {
   }
 }
 
-TEST(ResultsDir, APipeOrLinkWithTheNameOfAFileGoesAndAFolderIsNamed) {
+TEST(ResultsDir, PipesAndLinksWithNamesOfFilesAreDeletedAndAFolderIsNamed) {
   const OutDir scratch;
   ASSERT_EQ(::mkfifo((scratch.path() / "sim_server.log").c_str(), 0600), 0);
   write_text(scratch.path() / "mine.txt", "kept");
@@ -302,7 +302,7 @@ TEST(ResultsDir, APipeOrLinkWithTheNameOfAFileGoesAndAFolderIsNamed) {
   fs::create_directory(scratch.path() / "sim_server.log");
   try {
     const ResultsDir dir(scratch.path(), true);
-    ADD_FAILURE() << "accepted";
+    ADD_FAILURE() << "the folder was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("sim_server.log"), std::string::npos) << error.what();
   }
@@ -322,7 +322,7 @@ int with_file_limit(rlim_t bytes, const std::function<bool()>& body) {
   return status;
 }
 
-TEST(ResultsDir, WithoutRoomForAResultNothingStarts) {
+TEST(ResultsDir, ARunDoesNotStartWithoutSpaceForItsResult) {
   const OutDir scratch;
   EXPECT_EQ(with_file_limit(1000,
                             [&] {
@@ -347,7 +347,7 @@ TEST(ResultsDir, AResultThatCannotBeWrittenIsReportedAndLeavesNoPartOfAFile) {
                                      dir.write_result(too_long).find("result.json") != std::string::npos;
                             }),
             0);
-  EXPECT_EQ(fs::file_size(scratch.path() / "result.json"), 200U << 10) << "the one before stands";
+  EXPECT_EQ(fs::file_size(scratch.path() / "result.json"), 200U << 10) << "the former result stays";
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path()), {}), 1);
 }
 

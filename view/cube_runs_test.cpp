@@ -21,7 +21,8 @@ using Cube = std::tuple<int, int, int>;  // a cube's indices along z, y, x
 std::set<Cube> cubes_of(const std::vector<CubeRun>& runs) {
   std::set<Cube> cubes;
   for (const CubeRun& run : runs) {
-    for (int i = 0; i < run.length; ++i) EXPECT_TRUE(cubes.emplace(run.z, run.y, run.x + i).second) << "twice";
+    for (int i = 0; i < run.length; ++i)
+      EXPECT_TRUE(cubes.emplace(run.z, run.y, run.x + i).second) << "two runs contain the same cube";
   }
   return cubes;
 }
@@ -92,7 +93,7 @@ class DrawnCubes {
 
 std::string drawn_tree(std::mt19937& random) { return DrawnCubes(random).tree(); }
 
-TEST(CubeRuns, AreTheLeavesOfTheTree) {
+TEST(CubeRuns, CoverTheLeavesOfTheTree) {
   std::mt19937 random(3);
   std::size_t occupied = 0, free = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -139,7 +140,7 @@ TEST(CubeRuns, AreOfLargerCubesWhereThereAreTooMany) {
   EXPECT_GT(coarse, 5U);
 }
 
-TEST(CubeRuns, AreFourRowsAtLeast) {
+TEST(CubeRuns, AreReducedToFourRowsAtLeast) {
   std::mt19937 random(6);
   std::size_t four = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -151,10 +152,10 @@ TEST(CubeRuns, AreFourRowsAtLeast) {
     EXPECT_LE(map->free.size(), std::max(most, kLeastRuns));
     if (most < kLeastRuns && map->occupied.size() == kLeastRuns) ++four;
   }
-  EXPECT_GT(four, 5U) << "cubes on all sides of the origin, which cannot be fewer";
+  EXPECT_GT(four, 5U) << "cubes on all sides of the origin need four rows";
 }
 
-TEST(CubeRuns, ArriveAsTheyWerePacked) {
+TEST(CubeRuns, AreUnpackedAsTheyWerePacked) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<CubeRun> runs;
@@ -173,16 +174,16 @@ TEST(CubeRuns, ArriveAsTheyWerePacked) {
   EXPECT_EQ(packed(rows), "BgIEBQEEggICjwHOBA==");
 }
 
-TEST(CubeRuns, RefuseWhatNoCameraCanHaveSeen) {
-  EXPECT_TRUE(shown_map("", 0.5, 1.0).has_value()) << "nothing is known";
+TEST(CubeRuns, RefuseMapsThatAreTooLargeToBeReal) {
+  EXPECT_TRUE(shown_map("", 0.5, 1.0).has_value()) << "an empty map is valid";
   EXPECT_FALSE(shown_map("x", 0.5, 1.0).has_value());
   EXPECT_FALSE(shown_map(std::string("\x02\x00", 2), 0.5, 1.0).has_value()) << "an eighth of the world is occupied";
-  EXPECT_FALSE(shown_map(std::string("\x01\x00", 2), 0.5, 1.0).has_value()) << "or free";
+  EXPECT_FALSE(shown_map(std::string("\x01\x00", 2), 0.5, 1.0).has_value()) << "an eighth of the world is free";
   for (const double cell_m : {0.0, -1.0, 1e9, std::nan("")}) EXPECT_FALSE(shown_map("", cell_m, 1.0).has_value());
   EXPECT_FALSE(shown_map("", 0.5, std::nan("")).has_value());
 }
 
-TEST(CubeRuns, AreToldByName) {
+TEST(CubeRuns, AreSentWithTheNameOfTheirMap) {
   const Json told =
       parse_json(map_text("a", 12.5, {0.5, {{1, 2, 3, 4}}, 1.0, 4.25, {{0, 0, 4, 2}}}, "what it flies on"));
   EXPECT_EQ(told["n"], "map a");

@@ -11,7 +11,7 @@ class DoorTest : public testing::Test {
   const Door door_{{"192.0.2.7", "flier", "2001:db8::7"}, key_};
 };
 
-TEST_F(DoorTest, KnowsTheLoopbackAndWhatItIsToldWithWhateverPort) {
+TEST_F(DoorTest, AcceptsTheLoopbackAndGivenNamesWithAnyPort) {
   for (const char* host : {"127.0.0.1:8080", "localhost:8080", "[::1]:8080", "localhost:9000", "127.0.0.1", "[::1]",
                            "192.0.2.7:8080", "FLIER:8080", "[2001:db8::7]:80"}) {
     EXPECT_TRUE(door_.knows_host(host)) << host;
@@ -32,13 +32,13 @@ TEST_F(DoorTest, OnlyPagesOfTheSameHostAreItsOwn) {
   }
 }
 
-TEST_F(DoorTest, OpensForTheCookieThatItGives) {
+TEST_F(DoorTest, OpensOnlyForItsOwnCookie) {
   const std::string host = "localhost:8080", cookie = door_.cookie(host), pair = cookie.substr(0, cookie.find(';'));
   EXPECT_TRUE(door_.opens(pair, host));
   EXPECT_TRUE(door_.opens("a=b; " + pair + "; c=d", host));
   EXPECT_FALSE(door_.opens("", host));
   EXPECT_FALSE(door_.opens("skein_8080=", host));
-  EXPECT_FALSE(door_.opens("skein_8081=" + key_.text(), host)) << "of a page at another port";
+  EXPECT_FALSE(door_.opens("skein_8081=" + key_.text(), host)) << "this cookie is that of a page at another port";
   EXPECT_FALSE(door_.opens(pair, "localhost:8081"));
   EXPECT_FALSE(door_.opens("x" + pair, host));
   EXPECT_NE(cookie.find("HttpOnly"), std::string::npos);

@@ -18,11 +18,12 @@ TEST(Endpoints, AreOnTheLoopbackUnlessAnAddressIsGiven) {
   EXPECT_EQ(read_endpoint("0.0.0.0:8080"), (Endpoint{"0.0.0.0", 8080}));
   EXPECT_EQ(read_endpoint("192.0.2.7:65535"), (Endpoint{"192.0.2.7", 65535}));
   EXPECT_EQ(read_endpoint("[::1]:8080"), (Endpoint{"::1", 8080}));
-  EXPECT_EQ(read_endpoint("[0:0:0::1]:8080"), (Endpoint{"::1", 8080})) << "as browsers write it";
+  EXPECT_EQ(read_endpoint("[0:0:0::1]:8080"), (Endpoint{"::1", 8080}))
+      << "addresses are written as browsers write them";
   EXPECT_EQ(read_endpoint("[2001:DB8::7]:80"), (Endpoint{"2001:db8::7", 80}));
 }
 
-TEST(Endpoints, OfAnythingElseAreRefused) {
+TEST(Endpoints, InvalidEndpointsAreRefused) {
   for (const char* wrong : {"",
                             "http",
                             "65536",
@@ -60,7 +61,7 @@ TEST(Endpoints, KnowWhetherOnlyThisHostReachesThem) {
   EXPECT_EQ(read_endpoint("192.0.2.7:8080").from_here().text(), "192.0.2.7:8080");
 }
 
-TEST(Endpoints, HaveTheNamesOfTheirAddress) {
+TEST(Endpoints, HaveTheNamesThatLeadToTheirAddress) {
   EXPECT_EQ(names_of({"192.0.2.7", 80}), (std::vector<std::string>{"192.0.2.7"}));
   const std::vector<std::string> all = names_of({"0.0.0.0", 80});
   std::array<char, 256> name{};
@@ -68,7 +69,7 @@ TEST(Endpoints, HaveTheNamesOfTheirAddress) {
   std::string own = name.data();
   std::ranges::transform(own, own.begin(), ::tolower);
   EXPECT_NE(std::ranges::find(all, own), all.end());
-  EXPECT_NE(std::ranges::find(all, "127.0.0.1"), all.end()) << "an interface, too";
+  EXPECT_NE(std::ranges::find(all, "127.0.0.1"), all.end()) << "the loopback is an interface, too";
   EXPECT_EQ(std::ranges::find(all, "0.0.0.0"), all.end());
 }
 

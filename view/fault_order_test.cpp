@@ -27,7 +27,7 @@ const std::vector<std::string> kOrders = {
     R"({"do":"fault","kind":"command_delay","of":"changi","exchanges":4})",
     R"({"do":"end_fault","fault":17})"};
 
-TEST(FaultOrder, EachComesBackAsItWent) {
+TEST(FaultOrder, EachOrderIsReadBackUnchanged) {
   for (const std::string& text : kOrders) {
     const auto order = read_fault_order(text);
     ASSERT_TRUE(order) << text;
@@ -74,13 +74,13 @@ TEST(FaultOrder, NumbersAndNamesHaveBounds) {
   EXPECT_FALSE(with(R"("kind":"blackout","of":"changi","for_s":0)"));
   EXPECT_FALSE(with(R"("kind":"blackout","of":"changi","for_s":1e300)"));
   EXPECT_FALSE(with(R"("kind":"blackout","of":")" + std::string(101, 'a') + "\""));
-  EXPECT_FALSE(with(R"("kind":"partition","of":"changi")")) << "not by hand";
-  EXPECT_FALSE(with(R"("kind":"odometry_jump","of":"changi")")) << "not by hand";
+  EXPECT_FALSE(with(R"("kind":"partition","of":"changi")")) << "a viewer cannot order a partition";
+  EXPECT_FALSE(with(R"("kind":"odometry_jump","of":"changi")")) << "a viewer cannot order a jump of the odometry";
   EXPECT_FALSE(read_fault_order(R"({"do":"end_fault","fault":-1})"));
   EXPECT_FALSE(read_fault_order(R"({"do":"end_fault","fault":1e30})"));
 }
 
-TEST(FaultOrder, DamagedOnesDoNoHarm) {
+TEST(FaultOrder, DamagedOrdersDoNoHarm) {
   std::mt19937 random(7);
   for (int round = 0; round < 20000; ++round) {
     std::string text = kOrders[random() % kOrders.size()];

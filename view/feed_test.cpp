@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kMuch = 1 << 20;
 
-TEST(Feeds, TellNothingBeforeThereIsAScene) {
+TEST(Feeds, SendNothingBeforeThereIsAScene) {
   Feed feed;
   FeedPlace place;
   feed.add_line(R"({"a":1})");
@@ -18,7 +18,7 @@ TEST(Feeds, TellNothingBeforeThereIsAScene) {
   EXPECT_EQ(feed.next(place, kMuch), "");
 }
 
-TEST(Feeds, OfStatesTheNewestOfLinesAll) {
+TEST(Feeds, SendTheNewestStateAndAllLines) {
   Feed feed;
   FeedPlace place;
   feed.set_scene("{}");
@@ -42,7 +42,7 @@ TEST(Feeds, OfStatesTheNewestOfLinesAll) {
   EXPECT_EQ(next_line, 1000);
 }
 
-TEST(Feeds, EachReaderHasAPlaceOfItsOwn) {
+TEST(Feeds, KeepAPlaceForEachReader) {
   Feed feed;
   feed.set_scene("{}");
   feed.add_line("1");
@@ -53,28 +53,29 @@ TEST(Feeds, EachReaderHasAPlaceOfItsOwn) {
   EXPECT_EQ(feed.next(late, kMuch), R"({"scene":{},"lines":[1,2]})");
 }
 
-TEST(Feeds, TellCloudsOnlyToViewersThatAskForThem) {
+TEST(Feeds, SendCloudsOnlyToViewersThatAskForThem) {
   Feed feed;
   FeedPlace looks, other, blind;
   feed.set_scene("{}");
   for (FeedPlace* place : {&looks, &other, &blind}) feed.next(*place, kMuch);
   feed.set_cloud("lidar a", R"({"n":1})");
-  EXPECT_EQ(feed.next(looks, kMuch), "") << "nobody has asked";
+  EXPECT_EQ(feed.next(looks, kMuch), "") << "no viewer has asked for clouds";
   looks.look_at({"lidar a", "map a"});
   other.look_at({"lidar b"});
-  EXPECT_EQ(feed.next(looks, kMuch), R"({"clouds":[{"n":1}]})") << "what is there is told at once";
+  EXPECT_EQ(feed.next(looks, kMuch), R"({"clouds":[{"n":1}]})") << "a cloud that exists is sent at once";
   EXPECT_EQ(feed.next(looks, kMuch), "");
   looks.look_at({"lidar a", "map a"});
-  EXPECT_EQ(feed.next(looks, kMuch), "") << "to ask again brings nothing again";
+  EXPECT_EQ(feed.next(looks, kMuch), "") << "asking again must not send the cloud again";
   feed.set_cloud("map a", R"({"n":2})");
   feed.set_cloud("lidar a", R"({"n":3})");
   EXPECT_EQ(feed.next(looks, kMuch), R"({"clouds":[{"n":2},{"n":3}]})");
   looks.look_at({});
   feed.set_cloud("lidar a", R"({"n":4})");
-  for (FeedPlace* place : {&looks, &other, &blind}) EXPECT_EQ(feed.next(*place, kMuch), "") << "who asks no more";
+  for (FeedPlace* place : {&looks, &other, &blind})
+    EXPECT_EQ(feed.next(*place, kMuch), "") << "nobody asks for this cloud any more";
 }
 
-TEST(Feeds, OfEachCloudTheNewest) {
+TEST(Feeds, SendTheNewestVersionOfEachCloud) {
   Feed feed;
   FeedPlace slow;
   feed.set_scene("{}");
@@ -85,10 +86,10 @@ TEST(Feeds, OfEachCloudTheNewest) {
     feed.set_cloud("a", much + std::to_string(i));
     feed.set_cloud("b", much + std::to_string(i));
   }
-  EXPECT_EQ(feed.next(slow, 100), "{\"clouds\":[" + much + "999]}") << "more than there is room for: one at a time";
+  EXPECT_EQ(feed.next(slow, 100), "{\"clouds\":[" + much + "999]}") << "a cloud that is too large is sent alone";
   EXPECT_EQ(feed.next(slow, 100), "{\"clouds\":[" + much + "999]}");
-  EXPECT_EQ(feed.next(slow, 100), "") << "nothing has piled up";
-  // One that changes all the time does not keep the other from being told.
+  EXPECT_EQ(feed.next(slow, 100), "") << "older versions must not be sent";
+  // A cloud that changes all the time does not keep the other one from being sent.
   feed.set_cloud("b", "2");
   for (const std::string& next : {much, std::string("2"), much}) {
     feed.set_cloud("a", much);
@@ -145,7 +146,7 @@ TEST(Feeds, LinesComeBeforeClouds) {
   EXPECT_NE((text + feed.next(place, 200)).find(R"("clouds":[2])"), std::string::npos);
 }
 
-TEST(Feeds, SayWhenThereIsNews) {
+TEST(Feeds, ReportThatThereIsNews) {
   Feed feed;
   int news = 0;
   feed.on_news([&] { ++news; });

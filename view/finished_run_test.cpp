@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class FinishedRun : public testing::Test {
  protected:
-  /// The lines of this kind.
+  /// The lines of this kind that the feed has got.
   std::vector<Json> lines(const std::string& kind) const {
     std::vector<Json> found;
     for (const Json& line : told_["lines"]) {
@@ -36,7 +36,7 @@ class FinishedRun : public testing::Test {
   Json told_;
 };
 
-TEST_F(FinishedRun, IsToldInTheOrderOfItsTime) {
+TEST_F(FinishedRun, IsSentInTheOrderOfTime) {
   folder_.write_tables();
   tell();
   double last_s = 0.0;
@@ -54,22 +54,22 @@ TEST_F(FinishedRun, HasTrailsLinksAndCaptures) {
   folder_.write_tables();
   tell();
   const auto poses = lines("pose");
-  EXPECT_EQ(poses.size(), 7U) << "from 0 to 3 s, one in half a second";
+  EXPECT_EQ(poses.size(), 7U) << "from 0 to 3 s, each half second has a line";
   EXPECT_EQ(poses[2]["u"][0][0], 100);
   const auto links = lines("links");
-  ASSERT_EQ(links.size(), 3U) << "one a step in which any changes";
+  ASSERT_EQ(links.size(), 3U) << "each step in which a link changes has a line";
   EXPECT_EQ(links[0]["l"], "010100000");
   EXPECT_EQ(links[1]["l"], "010000000");
   EXPECT_EQ(links[2]["l"], "013003330") << "b collides";
   const auto captures = lines("capture");
   ASSERT_EQ(captures.size(), 2U);
   EXPECT_EQ(captures[0]["p"].size(), 2U * 4U);
-  EXPECT_EQ(lines("delivered").size(), 1U) << "the other never was";
+  EXPECT_EQ(lines("delivered").size(), 1U) << "the other capture was never delivered";
   ASSERT_EQ(lines("void").size(), 1U);
   EXPECT_EQ(lines("void")[0]["u"], 1);
 }
 
-TEST_F(FinishedRun, TellsWhatUavsDid) {
+TEST_F(FinishedRun, HasTheActivitiesOfTheUavs) {
   folder_.write_tables();
   const std::string line =
       R"({"k":"activity","t":1.5,"u":0,"m":"flies to a goal","g":[100,-250,300],"w":"b","n":"no way"})";
@@ -88,7 +88,7 @@ TEST_F(FinishedRun, TellsWhatUavsDid) {
   const auto lacks = [&] { return names("There is no activity.csv"); };
   EXPECT_FALSE(lacks());
   EXPECT_TRUE(names("activity.csv")) << "its last row is cut off";
-  fs::remove(folder_.path() / "activity.csv");  // an older run
+  fs::remove(folder_.path() / "activity.csv");  // as in a run of an earlier version
   tell();
   EXPECT_EQ(lines("activity").size(), 0U);
   EXPECT_TRUE(lacks());
@@ -126,13 +126,13 @@ TEST_F(FinishedRun, HasTheCamerasOfItsScene) {
   }
 }
 
-TEST_F(FinishedRun, SaysWhatItLacks) {
+TEST_F(FinishedRun, NamesTheDataThatItLacks) {
   tell();
   EXPECT_GE(told_["scene"]["missing"].size(), 4U);
   EXPECT_EQ(lines("pose").size(), 0U);
 }
 
-TEST_F(FinishedRun, IsNoneWithoutAResult) {
+TEST_F(FinishedRun, IsRefusedWithoutAResult) {
   fs::remove(folder_.path() / "result.json");
   Feed feed;
   EXPECT_THROW(tell_finished_run(folder_.path(), feed), InputError);

@@ -8,7 +8,7 @@
 namespace skein::view {
 namespace {
 
-TEST(FlyOrders, SurviveTheWayToTheBit) {
+TEST(FlyOrders, AreReadBackBitForBit) {
   RandomStream random(3, "fly orders", 0);
   for (int i = 0; i < 200; ++i) {
     const auto rate = [&] { return random.uniform(-kMostHandRate, kMostHandRate); };
@@ -19,7 +19,8 @@ TEST(FlyOrders, SurviveTheWayToTheBit) {
     ASSERT_TRUE(any && std::holds_alternative<FlyOrder>(*any));
     EXPECT_EQ(std::get<FlyOrder>(*any), order);
   }
-  EXPECT_EQ(read_fly_order(text_of(FlyOrder{"jurong", {}})), (FlyOrder{"jurong", {}})) << "to let go is one, too";
+  EXPECT_EQ(read_fly_order(text_of(FlyOrder{"jurong", {}})), (FlyOrder{"jurong", {}}))
+      << "letting go of a UAV is an order, too";
 }
 
 TEST(FlyOrders, AnyOtherTextIsRefused) {

@@ -27,7 +27,7 @@ class KeptCloudsTest : public testing::Test {
   }
 
   fs::path recording() const { return folder_ / "recording.mcap"; }
-  /// Scans of 0.1 s each: a wall that is seen farther and farther.
+  /// Records scans at intervals of 0.1 s. Each sees one more piece of a wall.
   void record(const std::string& topic, int scans) const {
     mcap::Writer file(recording());
     const std::uint16_t channel = file.add_channel(topic, "sensor_msgs/msg/PointCloud2", "");
@@ -38,7 +38,7 @@ class KeptCloudsTest : public testing::Test {
       file.write(channel, static_cast<std::uint64_t>(scan) * 100'000'000, encode(to_cloud(tick, points)));
     }
   }
-  /// In the file of its maps in time.
+  /// Writes an empty map to the file with the UAV's maps in time.
   void keep_empty_map(const std::string& uav, int second) const {
     mcap::Writer file(folder_ / run_folder::maps_file(uav, 0));
     const std::uint16_t channel = file.add_channel("/" + uav + "/flight_map", "octomap_msgs/msg/Octomap", "");
@@ -60,7 +60,7 @@ class KeptCloudsTest : public testing::Test {
   results::RunRecord run_;
 };
 
-TEST_F(KeptCloudsTest, PointsComeOnceByTheirTime) {
+TEST_F(KeptCloudsTest, EachPointIsSentOnceAtItsTime) {
   record("/a/cloud_inW", 30);
   const KeptClouds clouds(folder_, run_);
   EXPECT_EQ(clouds.lidar, std::vector<std::string>{"a"});
@@ -78,7 +78,7 @@ TEST_F(KeptCloudsTest, PointsComeOnceByTheirTime) {
     last_s = time_s;
     for (const Vector3d& p_W : unpacked_points(step["points"].get<std::string>())) {
       EXPECT_NEAR(p_W.x(), seen + 0.25, 0.06);
-      EXPECT_LE(0.1 * seen, time_s + 1e-9) << "it was seen then, or before";
+      EXPECT_LE(0.1 * seen, time_s + 1e-9) << "a scan must have seen the point by then";
       ++seen;
     }
   }
@@ -87,17 +87,18 @@ TEST_F(KeptCloudsTest, PointsComeOnceByTheirTime) {
   EXPECT_TRUE(told(feed, "lidar b").is_null());
 }
 
-TEST_F(KeptCloudsTest, SayWhatIsMissing) {
-  EXPECT_NE(KeptClouds(folder_, run_).missing.find("--record=clouds"), std::string::npos) << "no recording";
+TEST_F(KeptCloudsTest, NameTheMissingData) {
+  EXPECT_NE(KeptClouds(folder_, run_).missing.find("--record=clouds"), std::string::npos) << "there is no recording";
   record("/a/gimbal", 3);
-  EXPECT_NE(KeptClouds(folder_, run_).missing.find("--record=clouds"), std::string::npos) << "one without clouds";
+  EXPECT_NE(KeptClouds(folder_, run_).missing.find("--record=clouds"), std::string::npos)
+      << "the recording has no clouds";
   std::ofstream(recording()) << "no recording at all";
   EXPECT_NE(KeptClouds(folder_, run_).missing.find("--record=clouds"), std::string::npos);
   run_.explorer = {false, false};
-  EXPECT_EQ(KeptClouds(folder_, run_).missing, "") << "nobody has a LiDAR";
+  EXPECT_EQ(KeptClouds(folder_, run_).missing, "") << "no UAV has a LiDAR";
 }
 
-TEST_F(KeptCloudsTest, MapsAreThoseThatTheUavsLeft) {
+TEST_F(KeptCloudsTest, MapsAreThoseInTheResultsFolder) {
   // A cube of 16 m at the origin is occupied, and the next one along x is free.
   std::string tree;
   for (int depth = 0; depth < 10; ++depth) tree += std::string(depth == 0 ? "\x00\xC0" : "\x03\x00", 2);
@@ -127,7 +128,7 @@ TEST_F(KeptCloudsTest, MapsAreThoseThatTheUavsLeft) {
   EXPECT_NE(KeptClouds(folder_, run_).missing.find("skein replay RUN --maps"), std::string::npos);
 }
 
-TEST_F(KeptCloudsTest, MapsInTimeComeBeforeThoseOfTheEnd) {
+TEST_F(KeptCloudsTest, MapsInTimeTakePrecedenceOverThoseOfTheEnd) {
   keep_empty_map("a", 3);
   keep_empty_map("b", 5);
   std::ofstream(folder_ / run_folder::maps_file("b", 1)) << "damaged";

@@ -1,4 +1,4 @@
-// Which maps and points a page that holds its flight has, by the room that there is.
+// A page that contains its flight has as many maps and points as its size limit allows.
 #include "view/kept_flight.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::string letters(std::mt19937& random, std::size_t bytes) {
   return text;
 }
 
-TEST(KeptFlight, HasPointsAndMapsAsLongAsThereIsRoom) {
+TEST(KeptFlight, HasPointsAndMapsAsFarAsTheSizeLimitAllows) {
   std::mt19937 random(3);
   Feed feed;
   feed.set_scene(R"({"clouds": {"lidar": ["a"], "maps": ["a", "b"]}})");
@@ -52,7 +52,7 @@ TEST(KeptFlight, HasPointsAndMapsAsLongAsThereIsRoom) {
   for (const std::string& text : {all, maps, none, nothing}) EXPECT_EQ(told_by(text)["lines"].size(), 1U);
 }
 
-TEST(KeptFlight, WithoutASceneIsAJsonObjectAllTheSame) {
+TEST(KeptFlight, IsAJsonObjectAlsoWithoutAScene) {
   Feed feed;
   EXPECT_EQ(told_by(kept_flight(feed, 0)), Json::object());
   EXPECT_EQ(told_by(kept_flight(feed, 1'000'000)), Json::parse(R"({"kept": {"lidar": true, "maps": true}})"));

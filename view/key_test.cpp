@@ -18,7 +18,7 @@ class KeyFile : public testing::Test {
   const fs::path& folder_ = scratch_.path();
 };
 
-TEST(Keys, AreDrawnAnewAndOpenOnlyForThemselves) {
+TEST(Keys, AreRandomAndEqualOnlyThemselves) {
   const Key one = Key::draw(), other = Key::draw();
   EXPECT_EQ(one.text().size(), 64U);
   EXPECT_TRUE(one.opens(one.text()));
@@ -31,7 +31,7 @@ TEST(Keys, AreDrawnAnewAndOpenOnlyForThemselves) {
   EXPECT_FALSE(one.opens(nearly));
 }
 
-TEST_F(KeyFile, IsReadByItsOwnerAlone) {
+TEST_F(KeyFile, CanBeReadOnlyByItsOwner) {
   const Key key = Key::draw();
   const fs::path file = folder_ / "view.key";
   write_private_file(file, key.text() + "\n");
@@ -40,7 +40,7 @@ TEST_F(KeyFile, IsReadByItsOwnerAlone) {
   EXPECT_EQ(status.st_mode & 0777U, 0600U);
   EXPECT_TRUE(Key::read_from(file).opens(key.text()));
   ::chmod(file.c_str(), 0640);
-  EXPECT_THROW(Key::read_from(file), InputError) << "others may read it";
+  EXPECT_THROW(Key::read_from(file), InputError) << "a file that others may read is refused";
 }
 
 TEST_F(KeyFile, InvalidKeyFilesAreRefused) {

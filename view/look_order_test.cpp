@@ -19,7 +19,7 @@ TEST(LookOrders, AreReadAsTheyAreWritten) {
   EXPECT_EQ(read_look_order(R"({"do":"look","lidar":[]})"), LookOrder{});
 }
 
-TEST(LookOrders, AreNothingElse) {
+TEST(LookOrders, InvalidOrdersAreRefused) {
   for (const char* text :
        {"", "{}", "[]", R"({"do":"see"})", R"({"do":["look"]})", R"({"lidar":["a"]})", R"({"do":"look","lidar":"a"})",
         R"({"do":"look","lidar":[1]})", R"({"do":"look","lidar":[""]})", R"({"do":"look","map":""})",
@@ -29,12 +29,13 @@ TEST(LookOrders, AreNothingElse) {
     EXPECT_FALSE(read_order(text).has_value()) << text;
   }
   EXPECT_TRUE(read_look_order(text_of(LookOrder{std::vector<std::string>(32, "a"), ""})));
-  EXPECT_FALSE(read_look_order(text_of(LookOrder{std::vector<std::string>(33, "a"), ""}))) << "too many";
+  EXPECT_FALSE(read_look_order(text_of(LookOrder{std::vector<std::string>(33, "a"), ""}))) << "too many names";
   EXPECT_FALSE(read_look_order(text_of(LookOrder{{}, std::string(65, 'a')}))) << "longer than any name";
   EXPECT_FALSE(read_look_order(R"({"do":"look")" + std::string(1000, ' ') + "}")) << "longer than any order";
 }
 
-// 300 kB a second in all; everybody is told some 12 kB for each UAV at 8 times real time (tests/view/figures.mjs).
+// The budget is 300 kB a second. At 8 times real time, each viewer gets about 12 kB of it for each UAV, in addition to
+// clouds (tests/view/figures.mjs).
 TEST(LookBudget, LeavesRoomForTheFleet) {
   for (std::size_t uavs = 1; uavs <= 20; ++uavs) {
     const LookBudget budget = look_budget(uavs);
@@ -45,7 +46,7 @@ TEST(LookBudget, LeavesRoomForTheFleet) {
   EXPECT_GT(look_budget(100).points, 100U);
 }
 
-TEST(LookOrders, NameWhatTheyAskFor) {
+TEST(LookOrders, NameTheCloudsForWhichTheyAsk) {
   EXPECT_EQ(clouds_of({{"a", "b"}, "c"}), (std::vector<std::string>{"lidar a", "lidar b", "map c"}));
   EXPECT_TRUE(clouds_of({}).empty());
 }

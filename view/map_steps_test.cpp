@@ -19,12 +19,13 @@ using CubePlaces = std::set<CubePlace>;
 CubePlaces places_of(const std::vector<CubeRun>& runs) {
   CubePlaces places;
   for (const CubeRun& run : runs) {
-    for (int i = 0; i < run.length; ++i) EXPECT_TRUE(places.emplace(run.z, run.y, run.x + i).second) << "twice";
+    for (int i = 0; i < run.length; ++i)
+      EXPECT_TRUE(places.emplace(run.z, run.y, run.x + i).second) << "two runs contain the same cube";
   }
   return places;
 }
 
-/// As the page does.
+/// The cubes that the page shows at this time.
 CubePlaces shown_at(double now_s, const std::vector<RunsStep>& steps) {
   std::vector<CubeRun> runs;
   for (const RunsStep& step : steps) {
@@ -34,7 +35,7 @@ CubePlaces shown_at(double now_s, const std::vector<RunsStep>& steps) {
   return places_of(runs);
 }
 
-/// Maps that grow, and lose some of their cells.
+/// Random snapshots of a map that grows and loses some of its cells.
 std::vector<RunsAt> drawn_snapshots(std::mt19937& random) {
   std::vector<RunsAt> snapshots;
   CubePlaces known;
@@ -43,7 +44,7 @@ std::vector<RunsAt> drawn_snapshots(std::mt19937& random) {
     const auto along = [&] { return static_cast<int>(random() % 9) - 4; };
     for (unsigned j = random() % 60; j > 0; --j) known.emplace(along() / 2, along(), along());
     for (unsigned j = random() % 30; j > 0; --j) known.erase({along() / 2, along(), along()});
-    if (random() % 8 == 0) known.clear();  // its program was started again
+    if (random() % 8 == 0) known.clear();  // as if the UAV's program had been restarted
     std::vector<CubeRun> runs;
     for (const auto& [z, y, x] : known) runs.push_back({x, y, z, 1});
     time_s += 1.0 + static_cast<double>(random() % 5);
@@ -61,7 +62,8 @@ TEST(MapSteps, ShowTheNewestSnapshotAtEachTime) {
     EXPECT_TRUE(shown_at(snapshots[0].time_s - 0.5, steps).empty());
     for (const RunsAt& snapshot : snapshots) {
       EXPECT_EQ(shown_at(snapshot.time_s, steps), places_of(snapshot.runs));
-      EXPECT_EQ(shown_at(snapshot.time_s + 0.9, steps), places_of(snapshot.runs)) << "the next one is to come";
+      EXPECT_EQ(shown_at(snapshot.time_s + 0.9, steps), places_of(snapshot.runs))
+          << "this snapshot holds until the next one";
     }
     for (std::size_t i = 0; i < steps.size(); ++i) {
       gone += steps[i].until_s ? steps[i].runs.size() : 0;
@@ -69,10 +71,10 @@ TEST(MapSteps, ShowTheNewestSnapshotAtEachTime) {
       EXPECT_LE(steps[i == 0 ? 0 : i - 1].time_s, steps[i].time_s);
     }
   }
-  EXPECT_GT(gone, 1000U) << "that proves little";
+  EXPECT_GT(gone, 1000U) << "too few cubes disappeared for this test";
 }
 
-TEST(MapSteps, AreOneStepForWhatStays) {
+TEST(MapSteps, HaveOneStepForCubesThatStay) {
   const std::vector<CubeRun> wall = {{0, 0, 0, 7}, {0, 0, 1, 7}};
   const std::vector<RunsStep> steps =
       lifetimes(std::vector<RunsAt>{{1.0, wall}, {2.0, wall}, {3.0, {{0, 0, 0, 7}, {2, 0, 1, 3}}}});
@@ -83,7 +85,7 @@ TEST(MapSteps, AreOneStepForWhatStays) {
   EXPECT_EQ(steps[1].runs, (std::vector<CubeRun>{{0, 0, 0, 7}, {2, 0, 1, 3}}));
 }
 
-TEST(MapSteps, AreOfLargerCubesWhereThereWouldBeTooMany) {
+TEST(MapSteps, HaveLargerCubesIfThereWouldBeTooMany) {
   std::mt19937 random(2);
   std::size_t larger = 0, larger_free = 0;
   for (int round = 0; round < 200; ++round) {
@@ -110,10 +112,10 @@ TEST(MapSteps, AreOfLargerCubesWhereThereWouldBeTooMany) {
     }
   }
   EXPECT_GT(larger, 20U);
-  EXPECT_EQ(larger_free, 0U) << "each kind has cubes of its own size";
+  EXPECT_EQ(larger_free, 0U) << "the size of occupied cubes must not affect that of free ones";
 }
 
-TEST(MapSteps, AreToldAsTheyAre) {
+TEST(MapSteps, AreSentUnchanged) {
   const MapInTime map{1.0, 0.5, {5.0, 7.5}, {{5.0, 7.5, {{1, 2, 3, 4}}}, {7.5, {}, {{-1, 0, 0, 1}}}}, {{5.0, {}, {}}}};
   const Json told = parse_json(map_text("a", map, "what it flies on"));
   EXPECT_EQ(told["n"], "map a");

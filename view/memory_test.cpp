@@ -9,24 +9,24 @@ namespace {
 
 class ServerMemory : public ServerTest {};
 
-TEST_F(ServerMemory, DoesNotGrowWithWhatASlowBrowserHasNotRead) {
+TEST_F(ServerMemory, DoesNotGrowWithTheDataThatSlowBrowsersHaveNotRead) {
   constexpr std::size_t kBrowsers = 20, kStates = 3000, kStateBytes = 50'000;
   std::vector<std::unique_ptr<Wire>> stuck;
   for (std::size_t i = 0; i < kBrowsers; ++i) stuck.push_back(follower());
   const test::CountedMemory memory;
   for (std::size_t i = 0; i < kStates; ++i) {
     feed_.set_state("{\"n\":\"" + std::string(kStateBytes, 'x') + "\"}");
-    if (i % 100 == 0) {  // a good one meanwhile, for which the server's thread must have its turns
+    if (i % 100 == 0) {  // a normal browser is served meanwhile, so that the server's thread runs
       const auto good = follower();
       EXPECT_NE(good->until([](const std::string& text) { return text.find("\"n\"") != std::string::npos; }), "");
     }
   }
-  // A message under way to each, and copies as it is made.
+  // The server holds one message for each browser, and copies while it makes a message.
   EXPECT_LT(memory.peak(), 4 * kBrowsers * kStateBytes + (4 << 20));
-  EXPECT_GT(memory.allocated(), kStates * kStateBytes) << "what could have been kept";
+  EXPECT_GT(memory.allocated(), kStates * kStateBytes) << "the test must send more than the limit";
 }
 
-TEST_F(ServerMemory, DoesNotGrowWithStrangers) {
+TEST_F(ServerMemory, DoesNotGrowWithClientsWithoutAKey) {
   const test::CountedMemory memory;
   std::vector<std::unique_ptr<Wire>> idle;
   for (int i = 0; i < 400; ++i) {

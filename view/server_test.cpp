@@ -20,7 +20,7 @@ TEST_F(ServerTest, ServesAViewerWithTheKey) {
             std::string::npos);
 }
 
-TEST_F(ServerTest, ShowsTheDoorToOthers) {
+TEST_F(ServerTest, ShowsOthersThePageThatAsksForTheKey) {
   const std::string page = get("/", own_host());
   EXPECT_NE(page.find("The key, please"), std::string::npos);
   EXPECT_EQ(page.find("the page</p>"), std::string::npos);
@@ -44,7 +44,8 @@ TEST_F(ServerTest, GivesTheCookieForTheKey) {
     EXPECT_TRUE(refused.starts_with("HTTP/1.1 403")) << body << "\n" << refused;
     EXPECT_EQ(refused.find("Set-Cookie"), std::string::npos);
   }
-  EXPECT_TRUE(get("/enter?key=" + key_.text(), own_host()).starts_with("HTTP/1.1 404")) << "never in an address";
+  EXPECT_TRUE(get("/enter?key=" + key_.text(), own_host()).starts_with("HTTP/1.1 404"))
+      << "the key must not be accepted in an address";
   EXPECT_TRUE(get("/enter", own_host()).starts_with("HTTP/1.1 403"));
 }
 
@@ -64,11 +65,12 @@ TEST_F(ServerTest, RefusesOtherNamesOfThisHost) {
                     .starts_with("HTTP/1.1 421"))
         << name;
   }
-  EXPECT_TRUE(get("/", cookie()).starts_with("HTTP/1.1 421")) << "none at all";
-  EXPECT_TRUE(get("/", own_host() + own_host() + cookie()).starts_with("HTTP/1.1 421")) << "two";
+  EXPECT_TRUE(get("/", cookie()).starts_with("HTTP/1.1 421")) << "the request has no Host line";
+  EXPECT_TRUE(get("/", own_host() + own_host() + cookie()).starts_with("HTTP/1.1 421"))
+      << "the request has two Host lines";
 }
 
-TEST_F(ServerTest, RefusesPagesOfElsewhere) {
+TEST_F(ServerTest, RefusesRequestsOfPagesFromElsewhere) {
   for (const std::string& origin :
        {std::string("http://example.org"), std::string("null"), "https://" + host(), std::string("http://127.0.0.1:1"),
         std::string("http://localhost"), "http://" + host() + ".example.org"}) {
@@ -79,10 +81,10 @@ TEST_F(ServerTest, RefusesPagesOfElsewhere) {
     EXPECT_TRUE(get("/flight", headers + upgrade()).starts_with("HTTP/1.1 403")) << origin;
   }
   EXPECT_FALSE(get("/flight", own_host() + cookie() + upgrade()).starts_with("HTTP/1.1 101"))
-      << "a browser says where its page is from";
+      << "a browser always sends the origin of its page";
 }
 
-TEST_F(ServerTest, HasNoFilesUnderAnyName) {
+TEST_F(ServerTest, ServesNoFilesUnderAnyName) {
   for (const char* target :
        {"/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/live.js/../../etc/passwd", "//etc/passwd", "/..%5c..%5cetc",
         "/index.html", "/view.key", "/live.js?x", "/live.js%00", "/result.json"}) {
@@ -97,7 +99,7 @@ TEST_F(ServerTest, HasNoFilesUnderAnyName) {
   }
 }
 
-TEST_F(ServerTest, SaysThatNothingMayBeFetchedFromElsewhere) {
+TEST_F(ServerTest, ForbidsThePageToLoadAnythingFromElsewhere) {
   const std::string page = get("/", own_host() + cookie());
   EXPECT_NE(page.find("Content-Security-Policy: default-src 'none';"), std::string::npos) << page;
   EXPECT_NE(page.find("X-Content-Type-Options: nosniff"), std::string::npos);
@@ -105,7 +107,7 @@ TEST_F(ServerTest, SaysThatNothingMayBeFetchedFromElsewhere) {
   EXPECT_EQ(page.find("Access-Control-Allow"), std::string::npos);
 }
 
-TEST_F(ServerTest, EndsWhatIsMalformedOrTooLong) {
+TEST_F(ServerTest, ClosesMalformedAndTooLongRequests) {
   for (const std::string& request :
        {std::string("nonsense\r\n\r\n"), std::string(64 << 10, 'x'),
         "GET / HTTP/1.1\r\nX: " + std::string(64 << 10, 'x'),
@@ -113,10 +115,10 @@ TEST_F(ServerTest, EndsWhatIsMalformedOrTooLong) {
         "POST /enter HTTP/1.1\r\n" + own_host() + "Transfer-Encoding: chunked\r\n\r\nffffffff\r\n"}) {
     EXPECT_EQ(ask(request), "") << request.substr(0, 40);
   }
-  EXPECT_TRUE(get("/", own_host()).starts_with("HTTP/1.1 200")) << "it still serves";
+  EXPECT_TRUE(get("/", own_host()).starts_with("HTTP/1.1 200")) << "the server still serves others";
 }
 
-TEST_F(ServerTest, TellsFollowersAndObeysThem) {
+TEST_F(ServerTest, SendsTheFlightToFollowersAndObeysTheirOrders) {
   const auto wire = follower();
   feed_.add_line(R"({"k":"late"})");
   wire->until([](const std::string& text) { return text.find("late") != std::string::npos; });
@@ -125,13 +127,13 @@ TEST_F(ServerTest, TellsFollowersAndObeysThem) {
   EXPECT_EQ(last_, TimeOrder::Kind::step);
   const auto other = follower();
   other->send(frame(R"({"do":"resume"})"));
-  EXPECT_TRUE(eventually([&] { return orders_ == 2; })) << "several browsers follow";
+  EXPECT_TRUE(eventually([&] { return orders_ == 2; })) << "orders of several browsers are obeyed";
 }
 
-TEST_F(ServerTest, TellsPointsAndMapsOnlyToViewersThatLookAtThem) {
+TEST_F(ServerTest, SendsPointsAndMapsOnlyToViewersThatAskForThem) {
   const auto looks = follower(), other = follower();
   looks->send(frame(R"({"do":"look","lidar":["a"],"map":"b"})"));
-  EXPECT_TRUE(eventually([&] { return orders_ == 1; })) << "the viewer who sends them hears of it, too";
+  EXPECT_TRUE(eventually([&] { return orders_ == 1; })) << "the callback for orders gets this order, too";
   const auto has = [](const char* word) {
     return [word](const std::string& text) { return text.find(word) != std::string::npos; };
   };
@@ -139,7 +141,7 @@ TEST_F(ServerTest, TellsPointsAndMapsOnlyToViewersThatLookAtThem) {
   EXPECT_NE(looks->until(has("points")).find(R"("clouds":[{"its":"points"}])"), std::string::npos);
   feed_.set_cloud("lidar b", R"({"its":"others"})");
   feed_.set_cloud("map b", R"({"its":"map"})");
-  EXPECT_EQ(looks->until(has("map")).find("others"), std::string::npos) << "nobody asked for these";
+  EXPECT_EQ(looks->until(has("map")).find("others"), std::string::npos) << "the viewer did not ask for these maps";
   looks->send(frame(R"({"do":"look"})"));
   EXPECT_TRUE(eventually([&] { return orders_ == 2; }));
   feed_.set_cloud("map b", R"({"its":"later"})");
@@ -150,7 +152,7 @@ TEST_F(ServerTest, TellsPointsAndMapsOnlyToViewersThatLookAtThem) {
   EXPECT_EQ(other->until(has("newest")).find("clouds"), std::string::npos);
 }
 
-TEST_F(ServerTest, EndsFollowersThatSendAnythingElse) {
+TEST_F(ServerTest, ClosesConnectionsOfFollowersThatSendAnythingElse) {
   std::string unmasked = frame(R"({"do":"step"})");
   unmasked[1] = static_cast<char>(unmasked[1] & 0x7f);
   unmasked.erase(2, 4);
@@ -160,7 +162,7 @@ TEST_F(ServerTest, EndsFollowersThatSendAnythingElse) {
         std::string("\x81\xff\xff", 3) + std::string(12, '\xff'), frame("\xff\xfe")}) {
     const auto wire = follower();
     wire->send(bytes);
-    wire->all();  // comes to its end
+    wire->all();  // returns when the server closes the connection
   }
   EXPECT_EQ(orders_, 0);
 }
@@ -197,19 +199,20 @@ TEST_F(ServerTest, DoesNotWaitForAViewerThatDoesNotRead) {
       std::string::npos);
 }
 
-TEST_F(ServerTest, SaysGoodbyeWithWhatIsLeft) {
+TEST_F(ServerTest, SendsTheRestAndACloseFrameAtItsEnd) {
   const auto wire = follower();
   feed_.add_line(R"({"k":"last"})");
   server_.reset();
   const std::string heard = wire->all();
   EXPECT_NE(heard.find("last"), std::string::npos);
-  EXPECT_EQ(heard.substr(heard.size() - 4, 1), "\x88") << "a frame that closes it: two bytes, and why";
+  EXPECT_EQ(heard.substr(heard.size() - 4, 1), "\x88")
+      << "the last frame closes the connection: two bytes, and a reason of two bytes";
 }
 
 TEST_F(ServerTest, LeavesNoConnectionWhenItIsStopped) {
   const auto wire = follower();
   server_->stop();
-  wire->all();  // comes to its end
+  wire->all();  // returns when the server closes the connection
   EXPECT_EQ(orders_, 0);
 }
 
@@ -222,7 +225,7 @@ TEST_F(ServerTest, TheNextServerTakesOverAWaitingViewer) {
   EXPECT_NE(waiting.all().find("the replay"), std::string::npos);
 }
 
-// ssh -L 9000:127.0.0.1:8080: the browser knows the near end of the tunnel alone.
+// ssh -L 9000:127.0.0.1:8080: the browser knows only the near end of the tunnel.
 TEST_F(ServerTest, ServesAViewerThatComesThroughATunnel) {
   for (const std::string near : {"localhost:9000", "127.0.0.1:9000", "[::1]:9000", "localhost"}) {
     const std::string headers = "Host: " + near + "\r\n", cookie = cookie_for(near);
@@ -234,7 +237,7 @@ TEST_F(ServerTest, ServesAViewerThatComesThroughATunnel) {
               std::string::npos)
         << near;
     EXPECT_TRUE(get("/flight", headers + own_origin() + cookie + upgrade()).starts_with("HTTP/1.1 403"))
-        << "a page of another port is one of elsewhere";
+        << "a page at another port is from elsewhere";
     const std::string entered =
         ask("POST /enter HTTP/1.1\r\n" + headers + "Content-Length: 68\r\n\r\nkey=" + key_.text());
     EXPECT_NE(entered.find("Set-Cookie: " + Door({}, key_).cookie(near)), std::string::npos) << entered;
@@ -245,13 +248,13 @@ TEST(Listeners, AreOnTheLoopbackAndOnFreePorts) {
   const Listener listener(0);
   EXPECT_EQ(listener.endpoint(), (Endpoint{"127.0.0.1", listener.port()}));
   EXPECT_EQ(endpoint_of(listener.fd()), listener.endpoint());
-  EXPECT_THROW(Listener second(listener.port()), InputError) << "taken";
-  EXPECT_THROW(Listener elsewhere(Endpoint{"192.0.2.7", 0}), InputError) << "of somebody else";
+  EXPECT_THROW(Listener second(listener.port()), InputError) << "the port is in use";
+  EXPECT_THROW(Listener elsewhere(Endpoint{"192.0.2.7", 0}), InputError) << "the address belongs to another host";
   EXPECT_THROW(endpoint_of(0), InputError);
   EXPECT_THROW(endpoint_of(-1), InputError);
 }
 
-TEST(Listeners, AreWhereTheyAreAsked) {
+TEST(Listeners, ListenAtTheGivenAddress) {
   const Listener all(Endpoint{"0.0.0.0", 0});
   EXPECT_EQ(all.endpoint().address, "0.0.0.0");
   EXPECT_EQ(resolved("localhost:8080").port, 8080);
@@ -261,7 +264,7 @@ TEST(Listeners, AreWhereTheyAreAsked) {
   EXPECT_THROW(resolved("localhost:"), InputError);
 }
 
-// The names follow from where it listens, and from what it is told.
+// The names follow from the address at which the server listens, and from the names that it is given.
 TEST(Servers, BeyondTheLoopbackKnowTheHostsNamesAndNoOthers) {
   const Listener all(Endpoint{"0.0.0.0", 0});
   Feed feed;
@@ -281,11 +284,11 @@ TEST(Servers, BeyondTheLoopbackKnowTheHostsNamesAndNoOthers) {
   }
 }
 
-TEST(KeyFilePages, ShowTheKeyToThePageAlone) {
+TEST(KeyFilePages, PostTheKeyToThePage) {
   const Key key = Key::draw();
   const std::string page = key_file_page("127.0.0.1:8080", key);
   EXPECT_NE(page.find("action=\"http://127.0.0.1:8080/enter\""), std::string::npos);
-  EXPECT_EQ(page.find("fetch"), std::string::npos) << "somebody serves it, or connections wait";
+  EXPECT_EQ(page.find("fetch"), std::string::npos) << "the page fetches only if it must wait for the server";
   EXPECT_NE(key_file_page("127.0.0.1:8080", key, true).find("fetch('http://127.0.0.1:8080/'"), std::string::npos);
   EXPECT_NE(page.find("value=\"" + key.text() + "\""), std::string::npos);
 }

@@ -21,7 +21,7 @@ namespace {
 using namespace std::chrono_literals;
 using Random = std::mt19937;
 
-/// Waits for some time, or until the test is to end.
+/// Waits for this time, or until `over` requests the end.
 void pass(const std::stop_token& over, std::chrono::milliseconds time) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
@@ -36,7 +36,7 @@ std::string noise(Random& random, std::size_t most) {
   return bytes;
 }
 
-/// A path out of the folder of a server that has one, written in one of the many ways.
+/// A path that leads out of the folder of a server that serves one, in one of many spellings.
 std::string traversal(Random& random) {
   const std::vector<std::string>
       ups = {"..",           "%2e%2e", "%2E.",         ".%2e", "%252e%252e",       "..%00",
@@ -51,7 +51,7 @@ std::string traversal(Random& random) {
   return path + one_of(files, random);
 }
 
-/// Changes some bytes of a text: others, fewer, more.
+/// Replaces, removes or adds some bytes of a text.
 std::string damaged(std::string text, Random& random) {
   for (std::size_t i = 0, times = 1 + random() % 6; i < times && !text.empty(); ++i) {
     const std::size_t at = random() % text.size();
@@ -76,7 +76,7 @@ class Storm : public ServerTest {
  protected:
   ~Storm() override { stop_filling(); }
 
-  /// As a flight fills it, from a thread of its own: lines with their numbers, and states.
+  /// Fills the feed as a flight does, from a thread of its own, with numbered lines and with states.
   void fill() {
     filler_ = std::jthread([this](const std::stop_token& full) {
       while (!full.stop_requested()) {
@@ -126,8 +126,8 @@ class Storm : public ServerTest {
     return random() % 3 == 0 ? damaged(text, random) : text;
   }
 
-  /// Reads all lines that the feed has held by now and its newest state, which may come before the last line, and looks
-  /// whether they are whole.
+  /// Reads all lines of the feed so far and its newest state, which may come before the last line. Checks that
+  /// none is missing.
   /// @returns the lines that it received
   std::string expect_all(Wire& browser) {
     feed_.set_state(R"({"n":"newest"})");
@@ -171,7 +171,7 @@ class Storm : public ServerTest {
   std::jthread filler_;
 };
 
-/// Descriptors that this process has open: those of tests and server.
+/// The number of open descriptors of this process, which are those of the test and the server.
 std::size_t open_descriptors() {
   const std::filesystem::directory_iterator all("/proc/self/fd");
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
@@ -179,13 +179,13 @@ std::size_t open_descriptors() {
 
 class DrawnStorm : public Storm, public testing::WithParamInterface<unsigned> {};
 
-// Malformed, foreign, half sent and never ended requests, while a browser follows.
+// Malformed requests, requests without a key, and incomplete requests, while a browser follows the flight.
 TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
   Random random(GetParam());
   fill();
   const auto good = follower();
   const std::size_t before = open_descriptors();
-  std::list<Wire> idle;  // they say something, or the begin of it, and wait
+  std::list<Wire> idle;  // they send a request or a part of one, and wait
   for (int i = 0; i < 450; ++i) {
     const std::string text = request(random);
     switch (random() % 3) {
@@ -193,7 +193,7 @@ TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
         idle.emplace_back(listener_.port()).send(text.substr(0, random() % text.size()));
         break;
       }
-      case 1: {  // and goes before an answer comes
+      case 1: {  // and closes the connection before the answer
         Wire(listener_.port()).send(text);
         break;
       }
@@ -208,14 +208,15 @@ TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
       EXPECT_NE(get("/", own_host() + cookie()).find("<p>the page</p>"), std::string::npos);
     }
   }
-  EXPECT_LE(open_descriptors(), before + idle.size() + ServerLimits{}.visitors + 1) << "the server keeps few of them";
+  EXPECT_LE(open_descriptors(), before + idle.size() + ServerLimits{}.visitors + 1)
+      << "the server must keep few of the connections";
   EXPECT_NE(get("/live.js", own_host() + cookie()).find("the_script()"), std::string::npos);
   stop_filling();
   expect_all(*good);
   EXPECT_EQ(orders_, 0);
 }
 
-// Viewers that have the key, and send texts that are no orders.
+// These viewers have the key, and send orders and other texts.
 TEST_P(DrawnStorm, OfFramesIsObeyedWhereItIsAnOrderAndEndsOtherwise) {
   Random random(GetParam());
   fill();
@@ -256,7 +257,7 @@ TEST_F(Storm, OfTraversalsFindsNoFile) {
   }
 }
 
-// Anybody on the host may open connections; it takes no key to say nothing.
+// Any program on the host can open connections without a key.
 TEST_F(Storm, OfConnectionsThatSayNothingKeepsNoViewerOut) {
   const auto good = follower();
   std::list<Wire> idle;
@@ -267,13 +268,13 @@ TEST_F(Storm, OfConnectionsThatSayNothingKeepsNoViewerOut) {
   EXPECT_NE(get("/", own_host() + cookie()).find("<p>the page</p>"), std::string::npos);
   const auto still_open = [&] { return std::ranges::count_if(idle, [](Wire& wire) { return !wire.is_closed(); }); };
   EXPECT_TRUE(eventually([&] { return still_open() <= static_cast<long>(ServerLimits{}.visitors); }));
-  EXPECT_FALSE(idle.back().is_closed()) << "the first go, not the last";
+  EXPECT_FALSE(idle.back().is_closed()) << "the server must close the oldest connections, not the newest";
   feed_.add_line(R"({"k":"late"})");
   EXPECT_NE(good->until([](const std::string& text) { return text.find("late") != std::string::npos; }).find("late"),
             std::string::npos);
 }
 
-TEST_F(Storm, OfRequestsThatDripIsEnded) {
+TEST_F(Storm, OfSlowRequestsIsEnded) {
   serve({.request = 200ms});
   Wire drips(listener_.port());
   std::jthread drop([&](const std::stop_token& over) {
@@ -282,10 +283,10 @@ TEST_F(Storm, OfRequestsThatDripIsEnded) {
       pass(over, 5ms);
     }
   });
-  EXPECT_TRUE(eventually([&] { return drips.is_closed(); })) << "each byte does not give it more time";
+  EXPECT_TRUE(eventually([&] { return drips.is_closed(); })) << "a byte must not extend the time limit of a request";
 }
 
-TEST_F(Storm, OfBrowsersIsToldAll) {
+TEST_F(Storm, OfBrowsersGetsAllLines) {
   fill();
   std::vector<std::unique_ptr<Wire>> browsers;
   for (int i = 0; i < 100; ++i) {
@@ -310,11 +311,11 @@ TEST_F(Storm, OfMoreBrowsersThanAreAllowedIsTurnedAway) {
     Wire next(listener_.port());
     next.send(follow());
     return next.until([](const std::string& text) { return text.size() > 12; }).starts_with("HTTP/1.1 101");
-  })) << "who goes makes room";
+  })) << "a browser that leaves makes room for another";
 }
 
-// Its system takes what fits there, and then nothing more for a while.
-TEST_F(Storm, ASlowReaderIsToldAllLinesAndFewStates) {
+// The browser's system buffers some data, and then accepts no more for a while.
+TEST_F(Storm, ASlowReaderGetsAllLinesAndFewStates) {
   const auto slow = follower();
   constexpr int kStates = 20'000;
   for (int i = 0; i < kStates; ++i) {
@@ -324,15 +325,15 @@ TEST_F(Storm, ASlowReaderIsToldAllLinesAndFewStates) {
   const std::string heard = expect_all(*slow);
   std::size_t states = 0;
   for (std::size_t at = 0; (at = heard.find("\"state\":", at)) != std::string::npos; ++at) ++states;
-  EXPECT_LT(states, kStates / 10U) << "it was told what was new when it was ready";
+  EXPECT_LT(states, kStates / 10U) << "whenever the reader was ready, it got only the newest state";
 }
 
-// It does not close the connection: its machine has lost its power, or its network.
-TEST_F(Storm, ABrowserThatAnswersNoMoreIsLetGo) {
+// The browser does not close the connection, as if its machine had lost power or network.
+TEST_F(Storm, TheServerClosesTheConnectionOfASilentBrowser) {
   serve({.silence = 400ms});
   const auto dead = follower();
   EXPECT_TRUE(eventually([&] { return dead->is_closed(); }));
-  const auto stuck = follower();  // and one that reads nothing
+  const auto stuck = follower();  // a browser that reads nothing
   const std::size_t before = open_descriptors();
   for (int i = 0; i < 3000; ++i) feed_.add_line("\"" + std::string(5000, 'x') + "\"");
   EXPECT_TRUE(eventually([&] { return open_descriptors() < before; }));

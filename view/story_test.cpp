@@ -8,7 +8,7 @@
 namespace skein::view {
 namespace {
 
-TEST(StoryLines, AreJsonWhateverNamesHold) {
+TEST(StoryLines, AreJsonWhateverTheNames) {
   const Json line = parse_json(event_line(1.25, "joined", "a\"b\n\xff", ""));
   EXPECT_EQ(line["k"], "event");
   EXPECT_EQ(line["t"], 1.25);
@@ -16,7 +16,7 @@ TEST(StoryLines, AreJsonWhateverNamesHold) {
   EXPECT_TRUE(line["s"].get<std::string>().starts_with("a\"b\n"));
 }
 
-TEST(StoryLines, TellWhereCamerasLook) {
+TEST(StoryLines, HaveTheDirectionsOfCameras) {
   ShownUav uav;
   uav.body.p_WB = {1.0, -2.0, 3.005};
   uav.body.q_WB = Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitZ()));
@@ -29,7 +29,7 @@ TEST(StoryLines, TellWhereCamerasLook) {
   EXPECT_EQ(line["u"][1][5], 0);
 }
 
-TEST(StoryLines, SurviveAMotionThatNoNumberDescribes) {
+TEST(StoryLines, AreJsonAlsoIfAMotionIsNotFinite) {
   ShownUav uav;
   uav.body.p_WB = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   uav.body.q_WB.coeffs().setConstant(std::numeric_limits<double>::infinity());
@@ -43,7 +43,7 @@ TEST(StoryLines, HaveTheScoreWithAllItsDigits) {
   EXPECT_EQ(parse_json(score_line(1.0, 33, score))["s"].get<double>(), score);
 }
 
-TEST(StoryLines, TellWhatAUavDoesAndWhy) {
+TEST(StoryLines, HaveTheActivityOfAUavAndItsReason) {
   const Activity flies{.mode = "flies to a \"goal\"", .goal_W = Vector3d(1.0, -2.0, 3.005), .waits_for = "changi"};
   EXPECT_EQ(parse_json(activity_line(2.5, 1, flies)),
             Json::parse(R"({"k":"activity","t":2.5,"u":1,"m":"flies to a \"goal\"","g":[100,-200,301],
@@ -55,14 +55,15 @@ TEST(StoryLines, TellWhatAUavDoesAndWhy) {
             Json::parse("[[123,7,15],null,[0,0,null]]"));
 }
 
-TEST(StoryLines, TellCapturesAndLinks) {
+TEST(StoryLines, HaveCapturesAndLinks) {
   const Json capture = parse_json(capture_line(1.0, 2, 7, {{5, 0.5F, 0.25F, 0.125F, 0.75F}, {9, 1, 1, 1, 1}}));
   EXPECT_EQ(capture["u"], 2);
   EXPECT_EQ(capture["c"], 7);
   EXPECT_EQ(capture["p"], Json::parse("[5,125000,500,750,4,1000000,1000,1000]"));
   const Json poor =
       parse_json(capture_line(1.0, 0, 0, {{5, 1.0F, 1.0F, 0.1999999F, 1.0F}, {6, 1.0F, 1.0F, 0.2F, 1.0F}}));
-  EXPECT_EQ(poor["p"][1], 199999) << "it does not count, and must not look as if it did";
+  EXPECT_EQ(poor["p"][1], 199999)
+      << "the picture does not count, so its quality must not be rounded up to the threshold";
   EXPECT_EQ(poor["p"][5], 200000);
   using enum ShownLink;
   EXPECT_EQ(parse_json(links_line(1.0, std::vector{blocked, linked, cut, dead}))["l"], "0123");

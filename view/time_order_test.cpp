@@ -9,7 +9,7 @@ namespace {
 
 using OrderKind = TimeOrder::Kind;
 
-TEST(TimeOrders, SurviveTheWay) {
+TEST(TimeOrders, AreReadBackUnchanged) {
   for (const TimeOrder& order : {TimeOrder{OrderKind::pause}, TimeOrder{OrderKind::resume}, TimeOrder{OrderKind::step},
                                  TimeOrder{OrderKind::speed, 0.1}, TimeOrder{OrderKind::speed, 1000.0},
                                  TimeOrder{OrderKind::speed, std::nullopt}}) {

@@ -26,7 +26,7 @@ class TwoRuns : public testing::Test {
   ResultsFolder a_, b_;
 };
 
-TEST_F(TwoRuns, AreToldAsOneWithTheOtherInIt) {
+TEST_F(TwoRuns, AreSentAsOneRunThatContainsTheOther) {
   b_.write("score_timeline.csv", "time_s,points,score\n0.00,0,0\n2.00,1,0.5\n");
   const Json both = told({2.0, {"a position"}, {}});
   EXPECT_EQ(both["scene"]["other"]["uavs"].size(), 2U);
@@ -46,18 +46,18 @@ TEST_F(TwoRuns, AreToldAsOneWithTheOtherInIt) {
   EXPECT_EQ(own, others);
 }
 
-TEST_F(TwoRuns, SayWhatIsNotKnownAndWhatIsTheSame) {
+TEST_F(TwoRuns, NameTheReasonIfTheDifferenceIsUnknown) {
   EXPECT_TRUE(told()["scene"]["difference"].empty());
   EXPECT_EQ(told({{}, {}, "no digests.csv"})["scene"]["difference"]["unknown"], "no digests.csv");
 }
 
-TEST_F(TwoRuns, MayBeOfDifferentFleets) {
+TEST_F(TwoRuns, MayHaveDifferentFleets) {
   b_.write("result.json", R"({"scenario": "towers", "status": "completed", "sim_time_s": 3.0,
                                "uavs": [{"name": "b", "role": "explorer"}]})");
   EXPECT_EQ(told()["scene"]["fleets_differ"], true);
 }
 
-TEST_F(TwoRuns, AreNoneOfDifferentScenes) {
+TEST_F(TwoRuns, AreRefusedIfTheirScenesDiffer) {
   b_.write("score.csv", "index,x,y,z,nx,ny,nz,score\n0,1,2,3,0,0,1,0.877\n1,1,2,4.5,0,0,1,0\n");
   EXPECT_THROW(told(), InputError);
   b_.write("score.csv", "index,x,y,z,nx,ny,nz,score\n0,1,2,3,0,0,1,0.877\n");

@@ -40,7 +40,7 @@ class ServerTest : public testing::Test {
     const std::string text = Door({}, key_).cookie(name);
     return "Cookie: " + text.substr(0, text.find(';')) + "\r\n";
   }
-  /// @param headers  each with the end of its line
+  /// The answer to a GET request. @param headers  lines with their line ends
   std::string get(const std::string& target, const std::string& headers) const {
     return ask("GET " + target + " HTTP/1.1\r\n" + headers + "\r\n");
   }
@@ -52,11 +52,11 @@ class ServerTest : public testing::Test {
   std::string own_host() const { return "Host: " + host() + "\r\n"; }
   static std::string upgrade() { return test::kUpgrade; }
   std::string own_origin() const { return "Origin: http://" + host() + "\r\n"; }
-  /// The request that opens the WebSocket.
+  /// The request that opens the WebSocket of the flight.
   std::string follow() const {
     return "GET /flight HTTP/1.1\r\n" + own_host() + own_origin() + cookie() + upgrade() + "\r\n";
   }
-  /// A browser with an open WebSocket that has got the scene.
+  /// A browser whose WebSocket is open and that has received the scene.
   std::unique_ptr<Wire> follower() const {
     auto wire = std::make_unique<Wire>(listener_.port());
     wire->send(follow());
