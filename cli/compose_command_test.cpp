@@ -158,7 +158,7 @@ TEST_F(ComposeCommand, OnlyARegularFileIsWrittenTo) {
   EXPECT_EQ(names_in(scratch_.path()), (std::set<std::string>{"circle", "pipe"}));
 }
 
-TEST_F(ComposeCommand, ThePagesKeyLiesBesideTheFileForItsOwnerAlone) {
+TEST_F(ComposeCommand, TheKeyOfThePageIsBesideTheFileAndOnlyItsOwnerReadsIt) {
   if (!fs::exists(source_path("build/web/live.js"))) GTEST_SKIP() << "web/ is not built: ./skein test does that";
   const auto file_of = [&](const Texts& more) {
     Texts all = {"compose", "towers"};

@@ -78,7 +78,7 @@ TEST_F(RecorderTest, APartOutlivesItsProgramAndTheNextProgramWritesAnother) {
   delete dies;
 }
 
-TEST_F(RecorderTest, ThatRecordsNothingLeavesNothing) {
+TEST_F(RecorderTest, ARecorderThatRecordsNothingLeavesNoFile) {
   {
     Recorder recorder(folder_, programs::kStation, Scope::none);
     recorder.add("/skein/tally", msg::Tally());

@@ -78,7 +78,7 @@ TEST_F(SensingPage, InALooseBoxTheBeamsProveMore) {
   for (const SiteStudy& study : studies()) {
     const Surface& surface = study.snapshots.back().surface;
     EXPECT_GT(surface.places, 50);
-    EXPECT_LT(100 * surface.world_free, surface.places) << "what stands there is not free";
+    EXPECT_LT(100 * surface.world_free, surface.places) << "places on the surface of structures are not free";
     EXPECT_GE(surface.world_occupied, surface.today_occupied);
   }
   EXPECT_EQ(studies().front().rays, 16) << "a box so large is not a piece of structure";

@@ -101,7 +101,7 @@ TEST(BenchProfile, FindsTheExponentOfDrawnLaws) {
   EXPECT_FALSE(growth_of({{5.0, 0.0}, {9.0, 0.0}}));
 }
 
-TEST(BenchProfile, NamesWhatIsTheFirstLimit) {
+TEST(BenchProfile, NamesTheStageThatIsTheFirstLimit) {
   std::vector<Json> entries;
   for (const double n : {1.0, 10.0, 100.0}) {  // physics cost most of all here, links most at a thousand
     entries.push_back(profile_entry("patrol", static_cast<std::size_t>(n), {result(n, 1e-3 * n * n, 0.1 * n, n)}));

@@ -133,7 +133,7 @@ class HuntLogs : public testing::Test {
   const Json one_{{"seed", 1}}, other_{{"seed", 2}};
 };
 
-TEST_F(HuntLogs, BeginningAnewKeepsAndNamesTheFindsOfEveryHuntBefore) {
+TEST_F(HuntLogs, ANewHuntKeepsAndNamesTheFindsOfEveryEarlierHunt) {
   HuntLog(dir_, one_, false).add(0, "first", {.digest = "ab"});
   find("separation-3");
   find("all_fly_on-17");

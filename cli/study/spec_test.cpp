@@ -18,7 +18,7 @@ TEST(StudySpec, CommasSeparatePlanners) {
   EXPECT_EQ(split_planners("kios,patrol,hover"), (Texts{"kios", "patrol", "hover"}));
 }
 
-TEST(StudySpec, AnItemWithAKeyGoesOnWithTheParametersBeforeIt) {
+TEST(StudySpec, AnItemWithAKeyContinuesTheParametersBeforeIt) {
   EXPECT_EQ(split_planners("kios,xxh:faithful=true,star"), (Texts{"kios", "xxh:faithful=true", "star"}));
   EXPECT_EQ(split_planners("xxh:faithful=true,teams=2,star"), (Texts{"xxh:faithful=true,teams=2", "star"}));
   EXPECT_EQ(split_planners("kios:a.yaml,voxel_m=4,kios:voxel_m=5"), (Texts{"kios:a.yaml,voxel_m=4", "kios:voxel_m=5"}));
