@@ -25,10 +25,11 @@ namespace fs = std::filesystem;
 
 /// The keys of result.json that are the same in all runs with the same digest: no measured time, and nothing that
 /// depends on the machine, the DDS vendor or the way the run was started.
-constexpr std::array kSettled = {
-    "seed",          "scene_seed",   "exchange_period_s", "rules",        "conditions",     "status",
-    "deterministic", "digest",       "sim_time_s",        "points_total", "mission_time_s", "points_detected",
-    "score",         "score_earned", "score_by_uav",      "collisions",   "faults",         "flight_check"};
+constexpr std::array kSettled = {"status",         "deterministic",   "digest",      "sim_time_s",   "points_total",
+                                 "mission_time_s", "points_detected", "score",       "score_earned", "score_by_uav",
+                                 "collisions",     "faults",          "flight_check"};
+/// As above: what the runs were told to do. If it differs, it explains all other differences, so it is reported first.
+constexpr std::array kInputs = {"seed", "scene_seed", "exchange_period_s", "rules", "conditions"};
 constexpr std::array kSettledOfUavs = {"name",     "role",   "alive",    "distance_m",       "max_speed_mps",
                                        "captures", "idle_s", "frozen_s", "commands_rejected"};
 constexpr std::array kTables = {run_folder::kCaptures, run_folder::kEvents, run_folder::kScore,
@@ -44,9 +45,18 @@ std::string shown(const Json& value) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
-void compare(const Json& a, const Json& b, const char* key, const std::string& of, std::vector<std::string>& found) {
-  const Json one = value_or(a, key, nullptr), other = value_or(b, key, nullptr);
-  if (one != other) found.push_back("result.json: " + of + key + " " + shown(one) + ", and " + shown(other));
+/// Names each key in an object that differs: shown() cuts long objects, whose beginnings may look the same.
+void compare(const Json& a, const Json& b, const std::string& key, const std::string& of,
+             std::vector<std::string>& found) {
+  const Json one = value_or(a, key.c_str(), nullptr), other = value_or(b, key.c_str(), nullptr);
+  if (one == other) return;
+  if (!one.is_object() || !other.is_object()) {
+    found.push_back("result.json: " + of + key + " " + shown(one) + ", and " + shown(other));
+    return;
+  }
+  Json keys = one;
+  keys.update(other);
+  for (const auto& [inner, value] : keys.items()) compare(one, other, inner, of + key + ".", found);
 }
 
 /// The run's result.json; nullopt when the run has none because its launcher was killed.
@@ -55,7 +65,8 @@ std::optional<Json> result_of(const fs::path& run) {
   return results::read_result_file(run);
 }
 
-void compare_results(const DiffOptions& options, std::vector<std::string>& found) {
+/// @param inputs  differences of what the runs were told to do
+void compare_results(const DiffOptions& options, std::vector<std::string>& inputs, std::vector<std::string>& found) {
   const auto a = result_of(options.run_a), b = result_of(options.run_b);
   if (!a || !b) {
     if (a.has_value() != b.has_value()) {
@@ -63,6 +74,7 @@ void compare_results(const DiffOptions& options, std::vector<std::string>& found
     }
     return;
   }
+  for (const char* key : kInputs) compare(*a, *b, key, "", inputs);
   for (const char* key : kSettled) compare(*a, *b, key, "", found);
   const Json uavs_a = value_or(*a, "uavs", Json::array()), uavs_b = value_or(*b, "uavs", Json::array());
   if (uavs_a.size() != uavs_b.size()) {
@@ -187,8 +199,8 @@ void add_diff(CLI::App& app, DiffOptions& diff) {
 
 int diff_runs(const DiffOptions& options, const Console& console) {
   const std::optional<results::RunDifference> difference = results::first_difference(options.run_a, options.run_b);
-  std::vector<std::string> found, notes;
-  compare_results(options, found);
+  std::vector<std::string> inputs, found, notes;
+  compare_results(options, inputs, found);
   for (const char* table : kTables) compare_tables(options, table, found);
   for (const char* file : kOtherFiles) {
     if (const auto owner = only_owner(options, file)) {
@@ -196,6 +208,8 @@ int diff_runs(const DiffOptions& options, const Console& console) {
     }
   }
   compare_owners_of_recordings(options, found, notes);
+  if (!inputs.empty()) console.out << "the runs had different inputs:\n";
+  for (const std::string& one : inputs) console.out << "  " << one << '\n';
   if (difference) {
     console.out << "first difference at step " << difference->step << " (" << difference->time_s << " s):\n";
     for (const std::string& field : difference->fields) console.out << "  " << field << '\n';
@@ -206,10 +220,12 @@ int diff_runs(const DiffOptions& options, const Console& console) {
   if (difference && !found.empty()) console.out << "besides:\n";
   if (!difference && !found.empty()) console.out << "the digests are the same, but not what else the runs left:\n";
   for (const std::string& one : found) console.out << "  " << one << '\n';
-  if (!difference && found.empty()) console.out << "the runs are the same\n";
+  if (!difference && found.empty()) {
+    console.out << (inputs.empty() ? "the runs are the same\n" : "what they left is the same\n");
+  }
   for (const std::string& note : notes) console.out << note << '\n';
   console.out << std::flush;
-  return difference || !found.empty() ? kExitCheckFailed : kExitDone;
+  return difference || !found.empty() || !inputs.empty() ? kExitCheckFailed : kExitDone;
 }
 
 }  // namespace skein::cli

@@ -76,6 +76,32 @@ TEST_F(DiffCommand, NamesEachFileThatOnlyOneRunHas) {
   }
 }
 
+TEST_F(DiffCommand, DifferentInputsAreReportedFirst) {
+  const std::string inputs =
+      "the runs had different inputs:\n"
+      "  result.json: seed 1, and 2\n"
+      "  result.json: conditions \"breeze\", and \"harsh\"\n";
+  write("a", "result.json", R"({"status": "completed", "seed": 1, "conditions": "breeze"})");
+  write("b", "result.json", R"({"status": "completed", "seed": 2, "conditions": "harsh"})");
+  EXPECT_EQ(diff(), kExitCheckFailed);
+  EXPECT_EQ(out_.str(), inputs + "what they left is the same\n");
+  write("b", "digests.csv", "k,digest\n0,aa\n1,cc\n");
+  EXPECT_EQ(diff(), kExitCheckFailed);
+  EXPECT_TRUE(out_.str().starts_with(inputs + "first difference at step 1 (")) << out_.str();
+}
+
+// Messages cut long values, so two objects that differ at their ends would look the same.
+TEST_F(DiffCommand, ObjectsAreComparedKeyByKey) {
+  const std::string scores = R"({"status": "completed", "score_by_uav": {"alpha": 1.25, "zulu": )";
+  write("a", "result.json", scores + "2.5}}");
+  write("b", "result.json", scores + R"(3.5, "zz": 0.5}})");
+  EXPECT_EQ(diff(), kExitCheckFailed);
+  EXPECT_EQ(out_.str(),
+            "the digests are the same, but not what else the runs left:\n"
+            "  result.json: score_by_uav.zulu 2.5, and 3.5\n"
+            "  result.json: score_by_uav.zz null, and 0.5\n");
+}
+
 TEST_F(DiffCommand, ATableThatNeitherRunHasIsNoDifference) {
   for (const std::string run : {"a", "b"}) std::filesystem::remove(folder_.path() / run / "captures.csv");
   EXPECT_EQ(diff(), kExitDone) << out_.str();
