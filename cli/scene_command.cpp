@@ -1,6 +1,10 @@
 #include "cli/scene_command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
 
 #include "core/text/number_checks.hpp"
 #include "core/types.hpp"
@@ -10,6 +14,7 @@
 #include "results/run_folder.hpp"
 #include "run/drawn_world.hpp"
 #include "run/fleet_plan.hpp"
+#include "run/results_dir.hpp"
 
 namespace skein::cli {
 
@@ -37,7 +42,22 @@ void add_scene(CLI::App& app, SceneOptions& scene) {
       "  skein scene wild --scene-seed 7 --picture");
 }
 
+namespace {
+
+/// Keeps launchers out of the folder while the scene is written, and the scene out of the folder of a fleet that flies.
+/// @returns nullopt if there is no such folder yet. @throws InputError if a launcher uses the folder
+std::optional<FolderLock> lock_of_export(const std::filesystem::path& folder) try {
+  std::error_code error;  // ignored: the server reports what is wrong with the folder
+  if (!std::filesystem::is_directory(folder, error)) return std::nullopt;
+  return std::optional<FolderLock>(std::in_place, folder);
+} catch (const FolderInUse&) {
+  throw InputError("--out " + folder.string() + ": a launcher is writing there now; choose another folder");
+}
+
+}  // namespace
+
 int export_scene(const SceneOptions& options) {
+  const std::optional<FolderLock> lock = options.out ? lock_of_export(*options.out) : std::nullopt;
   std::vector<std::string> argv = {program_dir() / programs::kSimServer, "--scenario",
                                    scenario_source(options.scenario, options.scene_seed, options.uavs)};
   if (options.out) argv.insert(argv.end(), {"--export-scene", *options.out});

@@ -2,8 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "core/types.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "process/program.hpp"
+#include "run/results_dir.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace skein::cli {
 namespace {
@@ -37,6 +42,27 @@ TEST_F(SceneCommand, HandsItsOptionsToTheServer) {
   picture.picture = true;
   EXPECT_EQ(export_scene(picture), kExitDone);
   EXPECT_EQ(read_text(told), "--scenario towers --scene-picture .\n");
+}
+
+TEST_F(SceneCommand, AFolderThatALauncherUsesIsRefused) {
+  const std::filesystem::path told = programs_.dir() / "told";
+  write_script(programs_.dir() / "sim_server", "echo \"$@\" > " + told.string());
+  const ScratchFolder folder;
+  SceneOptions files = of("towers");
+  files.out = folder.path();
+  files.force = true;
+  {
+    const ResultsDir launcher(folder.path(), Earlier::keep);
+    try {
+      export_scene(files);
+      ADD_FAILURE() << "written";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(),
+                "--out " + folder.path().string() + ": a launcher is writing there now; choose another folder");
+    }
+    EXPECT_FALSE(std::filesystem::exists(told)) << "the server was started";
+  }
+  EXPECT_EQ(export_scene(files), kExitDone);
 }
 
 TEST_F(SceneCommand, TheCommandReturnsTheServersExitCode) {
