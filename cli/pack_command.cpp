@@ -135,7 +135,7 @@ struct Unfinished {
   }
 };
 
-/// @throws InputError if no archive can be made there.
+/// @throws InputError if no archive can be made there, or if the name promises another kind of archive.
 void check_target(const fs::path& archive) {
   std::error_code none;
   const fs::file_status status = fs::status(archive, none);
@@ -144,6 +144,10 @@ void check_target(const fs::path& archive) {
                      "; name the archive, as skein.tar.gz");
   }
   if (archive.filename().empty()) throw InputError(archive.string() + ": name the archive, as skein.tar.gz");
+  const std::string name = archive.filename();
+  if (!name.ends_with(".tar.gz") && !name.ends_with(".tgz")) {
+    throw InputError(archive.string() + ": the archive is a compressed tar file; let its name end in .tar.gz or .tgz");
+  }
   const fs::path folder = archive.parent_path();
   if (!fs::is_directory(folder, none) && fs::exists(folder, none)) {
     throw InputError(folder.string() + ": is not a folder, so no archive can be made in it");
@@ -190,7 +194,7 @@ void write_archive(const fs::path& archive, const Contents& contents) try {
 void add_pack(CLI::App& app, PackOptions& pack) {
   CLI::App* command = app.add_subcommand(
       "pack", "Write the programs with all their libraries into one archive, for machines without Skein");
-  command->add_option("FILE", pack.file, "Archive to write: skein.tar.gz")->required();
+  command->add_option("FILE", pack.file, "Archive to write; its name ends in .tar.gz or .tgz")->required();
   command->add_option("--agent", pack.agents, "Pack this agent program of yours, too")->allow_extra_args(false);
   command->footer("Example:\n  skein pack skein.tar.gz\n\nSee docs/how-to-sweep.md.");
 }

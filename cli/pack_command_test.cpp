@@ -42,6 +42,16 @@ TEST_F(PackCommand, ATargetThatIsNotAFileIsRefusedBeforeAnythingIsDone) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path().string() + ".parts"));
 }
 
+TEST_F(PackCommand, ANameOfAnotherKindOfArchiveIsRefused) {
+  for (const char* name : {"skein.zip", "skein.tar", "skein", "skein.tar.xz"}) {
+    const std::filesystem::path file = folder_.path() / name;
+    EXPECT_EQ(refusal(file),
+              file.string() + ": the archive is a compressed tar file; let its name end in .tar.gz or .tgz");
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
+  EXPECT_EQ(refusal(folder_.path() / "skein.tgz").find("the archive is"), std::string::npos);
+}
+
 /// Replaces Skein's programs with binaries that `ldd` can read.
 class PackedPrograms : public PackCommand {
  protected:
