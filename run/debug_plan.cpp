@@ -58,7 +58,9 @@ std::map<std::string, std::string> log_levels(const FleetPlan& plan) {
       throw InputError("--log " + value + ": '" + level + "' is not a level; " + suggestion(level, known));
     }
     if (is_exec(plan, program)) throw InputError("--log " + value + ": a command of yours logs as it likes");
-    levels[program] = level;
+    if (!levels.emplace(program, level).second) {
+      throw InputError("--log " + value + ": " + value.substr(0, cut) + " is named twice");
+    }
   }
   return levels;
 }

@@ -98,5 +98,12 @@ TEST_F(Crash, AWrongLevelStartsNothing) {
   }
 }
 
+TEST_F(Crash, TwoLevelsForOneProgramStartNothing) {
+  ChildProcess& skein = fly("twice", {"--log", "changi=debug", "--log", "changi=warn"});
+  EXPECT_EQ(skein.wait().code, 2);
+  EXPECT_NE(skein.err().find("--log changi=warn: changi is named twice"), std::string::npos) << skein.err();
+  EXPECT_FALSE(std::filesystem::exists(dir("twice")));
+}
+
 }  // namespace
 }  // namespace skein::test
