@@ -155,6 +155,18 @@ TEST_P(DrawnFolder, DamagedFilesAreDistinguishedFromMissingOnes) {
   EXPECT_EQ(damaged_files(dir()).size(), 1U);
 }
 
+// A program writes the names of the columns at its start, so an empty table is one that was lost.
+TEST_P(DrawnFolder, AnEmptyTableIsDamaged) {
+  for (const std::string table : kTables) {
+    write_text(dir() / table, heads_.at(table) + "\n");
+    EXPECT_TRUE(damaged_files(dir()).empty()) << table << " without rows";
+    write_text(dir() / table, "");
+    EXPECT_TRUE(is_told(read_sound_run(dir()), table, 0)) << table;
+    EXPECT_EQ(damaged_files(dir()).size(), 1U) << table;
+    write(table);
+  }
+}
+
 TEST_P(DrawnFolder, ColumnsThatEarlierVersionsDidNotWriteKeepTheirDefaults) {
   write_text(dir() / run_folder::kTrajectories, "time_s,uav,x,y,z\n0.5,a,1,2,3\n");
   for (const RunRecord& run : {read_run(dir()), read_sound_run(dir())}) {

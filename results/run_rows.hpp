@@ -9,6 +9,7 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -151,12 +152,16 @@ std::string no_file(const char* file);
 std::string damaged_table(const std::filesystem::path& dir, const char* table, std::size_t rows, const char* what);
 
 /// Like each_row(), but stops at the first row that is invalid or for which `on_row` throws. Adds a sentence to
-/// `missing` if this happens or the table is missing.
+/// `missing` if this happens, or if the table is missing or has not even the names of its columns.
 template <class Row, class OnRow>
 void each_sound_row(const std::filesystem::path& dir, std::vector<std::string>& missing, const OnRow& on_row) {
   std::size_t rows = 0;
   try {
-    if (!std::filesystem::exists(dir / Row::kTable)) return missing.push_back(no_file(Row::kTable));
+    const std::filesystem::path table = dir / Row::kTable;
+    if (!std::filesystem::exists(table)) return missing.push_back(no_file(Row::kTable));
+    if (std::filesystem::is_regular_file(table) && std::filesystem::file_size(table) == 0) {
+      throw std::runtime_error("the file is empty: the line with the names of the columns is missing");
+    }
     each_row<Row>(dir, [&](Row row) {
       on_row(std::move(row));
       ++rows;
