@@ -1,5 +1,7 @@
 #include "uav_agent/maps/clutter_filter.hpp"
 
+#include <limits>
+
 namespace skein::agent {
 namespace {
 
@@ -31,9 +33,17 @@ void ClutterFilter::keep_confirmed(double scan_s, const Vector3d& p_WL, const Wo
     cubes_ = 0;
   }
   new_.clear();
+  // Most returns end in cubes that are known to be structure, and consecutive returns often in one chunk.
+  WorldMap::Cube chunk = WorldMap::Cube::Constant(std::numeric_limits<int>::max());  // at first none
+  MapLevel::Structure structure;                                                     // of that chunk
   std::erase_if(hits_W, [&](const Eigen::Vector3f& hit_W) {
     const Vector3d p_W = hit_W.cast<double>();
     const WorldMap::Cube cube = map.cube_of(p_W);
+    if (MapLevel::block_of(cube) != chunk) {
+      chunk = MapLevel::block_of(cube);
+      structure = map.structure_in(chunk);
+    }
+    if (structure.at(cube)) return false;
     const bool in_doubt = map.doubted(cube);
     if (!in_doubt && map.known(cube).space == Space::occupied) return false;
     if (!confirmed(scan_s, (p_W - p_WL).norm(), in_doubt, cube)) return true;

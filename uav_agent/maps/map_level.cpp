@@ -306,6 +306,12 @@ MapLevel::Known MapLevel::known(const Cell& cell) const {
   return {block.space[place], block.teller[place]};
 }
 
+MapLevel::Structure MapLevel::structure_in(const Cell& block) const {
+  const Slot* const slot = slots_.find(grid_key(block));
+  if (slot == nullptr || slot->number < kFirst) return {};
+  return {&blocks_[slot->number - kFirst], doubts_ > 0};
+}
+
 void MapLevel::read(const Cell& block, std::array<Known, kCells>& known) const {
   const Slot* const slot = slots_.find(grid_key(block));
   if (slot == nullptr || slot->number == kNone) return known.fill({});

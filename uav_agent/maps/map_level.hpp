@@ -77,6 +77,9 @@ class MapLevel {
 
   /// State at this level alone.
   Known known(const Cell& cell) const;
+  class Structure;
+  /// For many questions about cells of one block. Valid until the map changes.
+  Structure structure_in(const Cell& block) const;
   /// The same for all cells of a block, x first.
   void read(const Cell& block, std::array<Known, kCells>& known) const;
 
@@ -160,6 +163,25 @@ class MapLevel {
   std::vector<Cell> changes_, structure_changes_;
   std::size_t free_ = 0, occupied_ = 0, doubts_ = 0, evidences_ = 0;
   std::uint64_t windows_ = 0;
+};
+
+/// Which cells of a block are structure: occupied, and not in doubt.
+class MapLevel::Structure {
+ public:
+  Structure() = default;
+  /// @param cell  in the block
+  bool at(const Cell& cell) const {
+    if (block_ == nullptr) return false;
+    const std::size_t place = place_of(cell);
+    return block_->space[place] == Space::occupied && !(any_doubts_ && doubted(*block_, place));
+  }
+
+ private:
+  friend class MapLevel;
+  Structure(const Block* block, bool any_doubts) : block_(block), any_doubts_(any_doubts) {}
+
+  const Block* block_ = nullptr;  ///< nullptr: none of its cells is occupied
+  bool any_doubts_ = false;
 };
 
 }  // namespace skein::agent

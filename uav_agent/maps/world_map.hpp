@@ -87,6 +87,8 @@ class WorldMap {
   /// State and teller of a smallest cube, at the finest level that knows it.
   MapLevel::Known known(const Eigen::Vector3i& cube) const;
   Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
+  /// Which smallest cubes of a chunk are occupied and not in doubt. Valid until the map changes.
+  MapLevel::Structure structure_in(const Cube& chunk) const { return levels_.front()->structure_in(chunk); }
   /// Centre of a smallest cube.
   Vector3d middle_W(const Cube& cube) const { return (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m; }
   /// Distance between the surfaces of the smallest cube that contains p and of the nearest occupied cube [m]: at most

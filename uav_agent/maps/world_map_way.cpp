@@ -34,12 +34,12 @@ class Way {
 /// It goes on one sample before such an end, or at it, because of rounding.
 double WorldMap::clear_way_m(const Vector3d& from_W, const Vector3d& direction_W, double reach_m) const {
   const double cell_m = config_.cell_m, step_m = 0.5 * cell_m;
-  const MapLevel& level = *levels_.front();
   const Way way(from_W, direction_W);
   const Vector3d low_W = structure_low_.cast<double>() * cell_m, high_W = structure_high_.cast<double>() * cell_m;
   const double last_m = std::min(reach_m, way.leaves_m(low_W, high_W, reach_m) + step_m);
   Cube last_chunk = Cube::Constant(std::numeric_limits<int>::max());  // of the last sample; at first none
   bool any_structure = false;                                         // in that chunk
+  MapLevel::Structure structure;                                      // of that chunk
   for (std::int64_t sample = 0;;) {
     const double way_m = static_cast<double>(sample) * step_m;
     if (!(way_m < last_m)) return reach_m;
@@ -49,9 +49,10 @@ double WorldMap::clear_way_m(const Vector3d& from_W, const Vector3d& direction_W
       chunks = structured_.find(grid_key(shifted(chunk, kRegionBits)));
       any_structure = chunks != nullptr && (*chunks >> place_in_region(chunk) & 1) != 0;
       last_chunk = chunk;
+      if (any_structure) structure = structure_in(chunk);
     }
     if (any_structure) {
-      if (level.known(cube).space == Space::occupied && !level.doubted(cube)) return way_m;
+      if (structure.at(cube)) return way_m;
       ++sample;
       continue;
     }
