@@ -6,7 +6,7 @@
 
 namespace skein::agent {
 
-/// A time limit that no mission reaches.
+/// A time limit that no mission reaches. Chosen.
 constexpr double kNeverS = 1e6;
 
 /// Sets a parameter that was not given to one of its two defaults.

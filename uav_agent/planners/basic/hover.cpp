@@ -6,8 +6,8 @@ namespace skein::agent {
 class HoverPlanner final : public Planner {
  public:
   struct Config {
-    double height_m = 3.0;  ///< above the start
-    double climb_mps = 1.0;
+    double height_m = 3.0;   ///< above the start; chosen
+    double climb_mps = 1.0;  ///< chosen
 
     void describe(auto& r) {
       r.field("height_m", height_m, within(0.2, 200.0));

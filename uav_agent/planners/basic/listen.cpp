@@ -12,11 +12,9 @@ namespace {
 class Listen final : public GroundProgram {
  public:
   struct Config {
-    int longest_text = 80;
+    int longest_text = 80;  ///< most characters of a message in the log; chosen
 
-    void describe(auto& r) {
-      r.field("longest_text", longest_text, within(0, 10000));  // most characters of a message in the log
-    }
+    void describe(auto& r) { r.field("longest_text", longest_text, within(0, 10000)); }
   };
 
   Listen(const Config& config, const AgentConfig& ground) : config_(config), ground_(ground) {}

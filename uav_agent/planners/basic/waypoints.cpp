@@ -20,7 +20,7 @@ class WaypointsPlanner final : public Planner {
  public:
   struct Stop {
     Vector3d position = Vector3d::Zero();
-    double speed_mps = 2.0;           ///< highest speed on the leg that ends at this stop
+    double speed_mps = 2.0;           ///< highest speed on the leg that ends at this stop; chosen
     double stay_s = 0.0;              ///< how long the UAV rests at this stop
     std::optional<double> yaw_deg;    ///< body yaw in W, from the start of this leg on; without it, as before
     std::optional<Vector3d> look_at;  ///< target of the camera, from the start of this leg on; without it, as before

@@ -9,10 +9,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRestsMps = 0.01;   ///< slower counts as no motion
-constexpr double kAheadS = 2.0;      ///< the path is as long as the way flown in this time,
-constexpr double kBrakesMps2 = 1.0;  ///< plus the braking distance at this gentle deceleration
-constexpr double kObeysShare = 0.5;  ///< a UAV faster than this share of the commanded speed is not held back
+constexpr double kRestsMps = 0.01;   ///< slower counts as no motion; chosen
+constexpr double kAheadS = 2.0;      ///< the path is as long as the way flown in this time (chosen),
+constexpr double kBrakesMps2 = 1.0;  ///< plus the braking distance at this deceleration; chosen: gentle
+constexpr double kObeysShare = 0.5;  ///< a UAV faster than this share of the commanded speed is not held back; chosen
 
 }  // namespace
 

@@ -18,11 +18,11 @@ constexpr std::array<EnumName<Flies>, 2> enum_names(Flies) {
 
 struct LearnerConfig {
   Flies flies = Flies::velocity;
-  bool safe = true;            ///< the safety filter may override the orders
-  int detections = 256;        ///< most detections in an observation: the newest
-  int map_x = 16, map_y = 16;  ///< cells of the map window in the observation; 0: no map
-  int map_z = 8;
-  double map_cell_m = 1.0;
+  bool safe = true;      ///< the safety filter may override the orders
+  int detections = 256;  ///< most detections in an observation: the newest; chosen
+  /// Cells of the map window in the observation; 0: no map. Chosen.
+  int map_x = 16, map_y = 16, map_z = 8;
+  double map_cell_m = 1.0;   ///< edge of a cell; chosen
   bool scans = false;        ///< the observation has the latest scan of the UAV's own LiDAR
   FlightConfig flight = {};  ///< approach_mps and climb_mps limit an ordered velocity
 

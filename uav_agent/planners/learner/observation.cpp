@@ -9,10 +9,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 0.5;  ///< height above the start from which a UAV counts as airborne
+constexpr double kAirborneM = 0.5;  ///< height above the start from which a UAV counts as airborne; chosen
 constexpr std::int8_t kUnknown = -1, kFree = 0, kOccupied = 1;  // values of a map cell
+// Values of `goal`. Format: docs/python.md.
 constexpr std::int8_t kNoGoal = 0, kFlying = 1, kReached = 2, kNoWay = 3, kBlocked = 4;
-constexpr double kNever = -1.0;  ///< age of something that has not happened yet
+constexpr double kNever = -1.0;  ///< age of something that has not happened yet; format: docs/python.md
+/// Lengths of rows. Format: docs/python.md.
+constexpr std::size_t kQuaternionNumbers = 4, kGimbalNumbers = 4, kDetectionNumbers = 5;
+constexpr std::size_t kBoxNumbers = 3 + 3 + kQuaternionNumbers;  ///< centre, size, attitude; format: docs/python.md
 
 void put(std::span<double> to, const auto& from) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[static_cast<Eigen::Index>(i)];
@@ -26,12 +30,12 @@ void Observation::lay_out(BlockLayout& layout, const std::string& prefix) {
   time_left_s_ = layout.add<double>(prefix + "time_left_s");
   position_ = layout.add<double>(prefix + "position", {3});
   velocity_ = layout.add<double>(prefix + "velocity", {3});
-  attitude_ = layout.add<double>(prefix + "attitude", {4});
+  attitude_ = layout.add<double>(prefix + "attitude", {kQuaternionNumbers});
   angular_velocity_ = layout.add<double>(prefix + "angular_velocity", {3});
   airborne_ = layout.add<std::int8_t>(prefix + "airborne");
-  gimbal_ = layout.add<double>(prefix + "gimbal", {4});
+  gimbal_ = layout.add<double>(prefix + "gimbal", {kGimbalNumbers});
   box_count_ = layout.add<std::int64_t>(prefix + "box_count");
-  boxes_ = layout.add<double>(prefix + "boxes", {kMostBoxes, 10});
+  boxes_ = layout.add<double>(prefix + "boxes", {kMostBoxes, kBoxNumbers});
   peers_ = layout.add<double>(prefix + "peers", {mates, 3});
   peer_velocities_ = layout.add<double>(prefix + "peer_velocities", {mates, 3});
   peer_ages_s_ = layout.add<double>(prefix + "peer_ages_s", {mates});
@@ -39,7 +43,7 @@ void Observation::lay_out(BlockLayout& layout, const std::string& prefix) {
   linked_ = layout.add<std::int8_t>(prefix + "linked");
   undelivered_ = layout.add<std::int64_t>(prefix + "undelivered");
   detection_count_ = layout.add<std::int64_t>(prefix + "detection_count");
-  detections_ = layout.add<double>(prefix + "detections", {detections, 5});
+  detections_ = layout.add<double>(prefix + "detections", {detections, kDetectionNumbers});
   goal_ = layout.add<std::int8_t>(prefix + "goal");
   map_origin_ = layout.add<double>(prefix + "map_origin", {3});
   map_ = layout.add<std::int8_t>(prefix + "map",
@@ -116,9 +120,10 @@ void Observation::write_boxes(const PlannerInput& in) {
   for (std::size_t i = 0; i < count; ++i) {
     const OrientedBox& box = in.boxes[i];
     const Quaterniond q(box.R_WO);
-    put(rows.subspan(10 * i, 3), box.center);
-    put(rows.subspan(10 * i + 3, 3), box.size);
-    put(rows.subspan(10 * i + 6, 4), Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
+    const auto row = rows.subspan(kBoxNumbers * i, kBoxNumbers);
+    put(row.first(3), box.center);
+    put(row.subspan(3, 3), box.size);
+    put(row.last(kQuaternionNumbers), Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
   }
 }
 
@@ -189,6 +194,7 @@ void Observation::write_cells(const WorldMap& map, const Eigen::Vector3i& from) 
   const auto cells = map_.in(block_);
   const int cubes = std::max(1, static_cast<int>(std::lround(config_.map_cell_m / map.config().cell_m)));
   const auto space_in = [&](const Eigen::Vector3i& cell) {
+    // Rounding: the cell's corner lies between cubes.
     const Eigen::Vector3i first = map.cube_of((cell.cast<double>() * config_.map_cell_m).array() + 1e-6);
     std::int8_t space = kFree;
     for (int i = 0; i < cubes * cubes * cubes; ++i) {

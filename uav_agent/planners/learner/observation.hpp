@@ -16,7 +16,7 @@
 
 namespace skein::agent {
 
-/// Most boxes in an observation; further boxes are left out.
+/// Most boxes in an observation; further boxes are left out. Chosen.
 inline constexpr std::size_t kMostBoxes = 32;
 
 class Observation {

@@ -3,13 +3,18 @@
 #include <algorithm>
 
 namespace skein::agent {
+namespace {
+
+constexpr std::size_t kWaypointNumbers = 4;  ///< position and speed; format: python/skein/stepping/actions.py
+
+}  // namespace
 
 void Orders::lay_out(BlockLayout& layout, const std::string& prefix) {
   serial_ = layout.add<std::int64_t>(prefix + "serial");
   velocity_ = layout.add<double>(prefix + "velocity", {3});
   yaw_rate_ = layout.add<double>(prefix + "yaw_rate");
   waypoints_ = layout.add<std::int64_t>(prefix + "waypoints");
-  way_ = layout.add<double>(prefix + "way", {kMostWaypoints, 4});
+  way_ = layout.add<double>(prefix + "way", {kMostWaypoints, kWaypointNumbers});
   turns_ = layout.add<std::int8_t>(prefix + "turns");
   yaw_ = layout.add<double>(prefix + "yaw");
   gimbal_kind_ = layout.add<std::int8_t>(prefix + "gimbal_kind");
@@ -27,7 +32,7 @@ std::vector<Waypoint> Orders::way() const {
   const auto count = std::clamp<std::int64_t>(waypoints_.in(block_)[0], 0, kMostWaypoints);
   std::vector<Waypoint> way;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const auto row = cells.subspan(4 * i, 4);
+    const auto row = cells.subspan(kWaypointNumbers * i, kWaypointNumbers);
     way.push_back({{row[0], row[1], row[2]}, row[3]});
   }
   return way;

@@ -14,7 +14,7 @@
 
 namespace skein::agent {
 
-/// Most waypoints in an order.
+/// Most waypoints in an order. Chosen.
 inline constexpr std::size_t kMostWaypoints = 32;
 
 class Orders {
