@@ -18,7 +18,7 @@ namespace skein::agent {
 
 class WorldVoxels {
  public:
-  static constexpr double kUpdateS = 1.0;  ///< time between two calls of update() in the published strategies; chosen
+  static constexpr double kUpdateS = 1.0;  ///< time between two calls of update() in the planners; chosen
 
   struct Config {
     double around_m = 1.0;         ///< radius around a cube's centre that must be free for the cube to be free; chosen

@@ -6,7 +6,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMissedPictures = 2.5;  ///< pictures in this time, at least: two or more do not show the point
+/// A point is missing after at least this many times between pictures. Chosen: two or more pictures do not show it.
+constexpr double kMissedPictures = 2.5;
 
 }  // namespace
 

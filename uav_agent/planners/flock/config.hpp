@@ -7,24 +7,27 @@
 
 namespace skein::agent {
 
+/// docs/flock.md has scores without glances, claims, prove_gain and other parts of the method.
 struct FlockConfig {
   double voxel_m = 0.0;      ///< edge of a cube of the map; 0: 0.2 d*, limited to 1 to 2 m
-  int max_voxels = 250'000;  ///< the cubes grow until the site has no more
-  double density = 0.125;    ///< interest points expected per square metre of surface, before any was seen
-  double wide_ratio = 1.5;   ///< distances of views, in units of d*: wide, for more in a coarser picture, ...
-  double far_ratio = 0.92;   ///< ... far, ...
-  double near_ratio = 0.55;  ///< ... and near
-  double looked_q = 0.4;     ///< a surface seen with this quality shows all its interest points
-  double good_q = 0.9;       ///< a point that was photographed with this quality is left out
-  double inspect_mps = 4.0;  ///< speed between views that are near each other
-  int max_views = 160;       ///< most views evaluated in one decision
-  int depth = 4;             ///< number of views planned ahead
-  double glance_s = 0.45;    ///< so long, the camera follows a place on the way to a view; 0: it does not
-  double replan_s = 1.5;     ///< time between two decisions
-  double share_s = 0.5;      ///< time between two messages
-  double claim_s = 4.0;      ///< age at which another UAV's claim of a view expires; 0: claims do not count
-  double prove_gain = 0.3;   ///< what an explorer adds to the gain of a view from space not proved free, as a share
-  double survey_m = 30.0;    ///< a LiDAR finds all structure within this distance
+  int max_voxels = 250'000;  ///< the cubes grow until the site has no more; chosen: bounds the CPU time
+  double density = 0.125;    ///< interest points expected per square metre of surface, before any was seen; chosen
+  /// Distances of views, in units of d*: wide, for more in a coarser picture; far; near. Chosen; measured without a
+  /// choice between them: docs/flock.md.
+  double wide_ratio = 1.5, far_ratio = 0.92, near_ratio = 0.55;
+  /// A surface seen with the quality looked_q shows all its interest points; a point that was photographed with good_q
+  /// is left out. Chosen; measured with lower ones: docs/flock.md.
+  double looked_q = 0.4, good_q = 0.9;
+  /// Speed between views that are near each other. Chosen; measured with 2.5 and 5, too (decision 36).
+  double inspect_mps = 4.0;
+  int max_views = 160;      ///< most views evaluated in one decision; chosen: bounds the CPU time
+  int depth = 4;            ///< number of views planned ahead; chosen; measured with 1, too: docs/flock.md
+  double glance_s = 0.45;   ///< so long, the camera follows a place on the way to a view; 0: it does not; chosen
+  double replan_s = 1.5;    ///< time between two decisions; chosen; decision 36 tries one at each view, too
+  double share_s = 0.5;     ///< time between two messages; chosen
+  double claim_s = 4.0;     ///< age at which another UAV's claim of a view expires; 0: claims do not count; chosen
+  double prove_gain = 0.3;  ///< share that an explorer adds to the gain of a view from space not proved free; chosen
+  double survey_m = 30.0;   ///< a LiDAR finds all structure within this distance; chosen
   FlightConfig flight = {};
 
   void describe(auto& r) {

@@ -32,15 +32,14 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLookAtMapS = 1.0;        ///< time between two looks at the map
-constexpr std::uint64_t kCameraSteps = 3;  ///< exchanges between two updates from the camera's view
-constexpr double kRestS = 0.5;             ///< time between two decisions while there is nothing to photograph
-constexpr std::size_t kMostLegs = 3;
-constexpr int kTries = 4;               ///< most routes tried in a decision, if there is no way to the first view
-constexpr double kAimAheadS = 0.9;      ///< so long before a view, the camera turns to it
-constexpr double kSeekAfterS = 4.0;     ///< after resting for so long, the flight core searches paths to ...
-constexpr std::size_t kMostSought = 4;  ///< ... so many views, ...
-constexpr double kSeekS = 12.0;         ///< ... and after this time to others
+constexpr std::uint64_t kCameraSteps = 3;  ///< exchanges between two updates from the camera's view; chosen
+constexpr double kRestS = 0.5;             ///< time between two decisions while there is nothing to photograph; chosen
+constexpr std::size_t kMostLegs = 3;       ///< most views in a goal for the flight core; chosen
+constexpr int kTries = 4;            ///< most routes tried in a decision, if there is no way to the first view; chosen
+constexpr double kAimAheadS = 0.9;   ///< so long before a view, the camera turns to it; chosen
+constexpr double kSeekAfterS = 4.0;  ///< after resting for so long (chosen), the flight core searches paths to ...
+constexpr std::size_t kMostSought = 4;  ///< ... so many views (chosen), ...
+constexpr double kSeekS = 12.0;         ///< ... and after this time to others; chosen
 
 }  // namespace
 
@@ -141,7 +140,7 @@ void FlockPlanner::look_around(const PlannerInput& in) {
     if (!camera_.failed()) surfaces_->look_at_picture(exposure, in.tick);
   }
   if (camera_.failed() != failed) change_work();
-  if (!agent_.due(in.k, kLookAtMapS, agent_.self)) return;
+  if (!agent_.due(in.k, WorldVoxels::kUpdateS, agent_.self)) return;
   surfaces_->look_at_map(*in.world_map);
   if (has_lidar()) surfaces_->survey().look(surfaces_->grid(), in.state.p_WB);
   for (const Peer& peer : in.peers.all()) {
@@ -310,7 +309,7 @@ void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   Goal goal;
   const double first_m = (route_.front().p_WB - here_W).norm();
-  const double speed_mps = first_m > 10.0 ? config_.flight.approach_mps : config_.inspect_mps;
+  const double speed_mps = first_m > FlockPace::kFarM ? config_.flight.approach_mps : config_.inspect_mps;
   if (way) goal.way.push_back({here_W, config_.inspect_mps});
   for (const Vector3d& corner_W : way.value_or(std::vector{route_.front().p_WB})) {
     goal.way.push_back({corner_W, speed_mps});
@@ -318,7 +317,7 @@ void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector
   for (std::size_t i = 1; i < std::min(route_.size(), kMostLegs); ++i) {
     const Vector3d& before_W = route_[i - 1].p_WB;
     const double leg_m = (route_[i].p_WB - before_W).norm();
-    if (leg_m > 10.0 || !in.space->segment_free(before_W, route_[i].p_WB)) break;
+    if (leg_m > FlockPace::kFarM || !in.space->segment_free(before_W, route_[i].p_WB)) break;
     goal.way.push_back({route_[i].p_WB, config_.inspect_mps});
   }
   const Vector3d look = route_.front().aim_W - route_.front().p_WB;

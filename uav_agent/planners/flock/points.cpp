@@ -5,24 +5,30 @@
 #include <iterator>
 
 #include "uav_agent/api/fnv_hash.hpp"
+#include "uav_agent/maps/map_exchange.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr double kRegionM = 16.0, kCm = 0.01;
-constexpr double kQualitySteps = 50.0;  ///< smaller differences in quality are not sent
-constexpr double kForgetS = 10.0;       ///< age at which another UAV's hashes expire
-constexpr std::size_t kPointBytes = 10;
-constexpr double kSameFacing = 0.7;  ///< least cosine between the normals of detections of the same point
-constexpr int kMostVain = 10;
-constexpr double kVainS = 120.0;
+constexpr double kRegionM = 16.0;           ///< edge of a region; chosen
+constexpr double kCm = 0.01;                ///< unit of positions in a region [m]; format
+constexpr double kQualitySteps = 50.0;      ///< quality 1 in messages; smaller differences are not sent; chosen
+constexpr double kNormalSteps = 127.0;      ///< component 1 of a normal in messages; format
+constexpr int kNormalZero = 128;            ///< component 0 of a normal in messages; format
+constexpr std::size_t kPointBytes = 10;     ///< format: place, normal, quality, as write_region() sends them
+constexpr double kLargestIndex = 32'000.0;  ///< index of a region along an axis; format: std::int16_t, with a margin
+constexpr double kLeastNormal = 0.1;        ///< length of a normal in a message; a shorter one is damaged; chosen
+constexpr double kSameFacing = 0.7;  ///< least cosine between the normals of detections of the same point; chosen
+constexpr int kMostVain = 10;        ///< pictures in a row that do not improve a point, which is then left out; chosen
+/// Age at which another UAV's hashes expire, as do those of its map.
+constexpr double kForgetS = MapExchange::Config().forget_s;
 
 std::uint8_t quality_step(double q) {
   return static_cast<std::uint8_t>(std::lround(kQualitySteps * std::clamp(q, 0.0, 1.0)));
 }
 
 std::uint8_t component(double n) {
-  return static_cast<std::uint8_t>(std::lround(127.0 * std::clamp(n, -1.0, 1.0)) + 128);
+  return static_cast<std::uint8_t>(std::lround(kNormalSteps * std::clamp(n, -1.0, 1.0)) + kNormalZero);
 }
 
 }  // namespace
@@ -37,7 +43,7 @@ void FlockPoints::detect(std::span<const DetectedPoint> detected, const Vector3d
 
 std::optional<FlockPoints::Spot> FlockPoints::spot_of(const Told& told) {
   const Eigen::Vector3d region = (told.p_W / kRegionM).array().floor();
-  if (!(region.cwiseAbs().maxCoeff() < 32'000.0) || !(told.n_W.norm() > 0.1)) return std::nullopt;
+  if (!(region.cwiseAbs().maxCoeff() < kLargestIndex) || !(told.n_W.norm() > kLeastNormal)) return std::nullopt;
   Spot spot;
   for (int i = 0; i < 3; ++i) {
     const auto along = static_cast<std::size_t>(i);
@@ -153,7 +159,7 @@ void FlockPoints::expect_better(std::size_t point, Tick now) {
   FlockPoint& expected = points_[point];
   if (++expected.vain < kMostVain) return;
   expected.vain = 0;
-  expected.not_before = now + ticks(kVainS);
+  expected.not_before = now + ticks(kLeftOutS);
 }
 
 void FlockPoints::expect_again() {
@@ -267,7 +273,7 @@ bool FlockPoints::read_region(PayloadReader& reader) {
     Told told;
     // In the middle of its centimetre, so that rounding gives the same place again.
     for (int k = 0; k < 3; ++k) told.p_W[k] = corner_W[k] + kCm * (reader.u16() + 0.5);
-    for (int k = 0; k < 3; ++k) told.n_W[k] = (reader.u8() - 128) / 127.0;
+    for (int k = 0; k < 3; ++k) told.n_W[k] = (reader.u8() - kNormalZero) / kNormalSteps;
     told.q = reader.u8() / kQualitySteps;
     if (reader.ok()) all.push_back(told);
   }

@@ -35,7 +35,9 @@ struct FlockPoint {
 
 class FlockPoints {
  public:
-  static constexpr std::size_t kMostRegions = 800;
+  static constexpr std::size_t kMostRegions = 800;  ///< chosen: leaves room in a message beside their hashes
+  /// A point or a surface that pictures do not show although they should is left out for so long. Chosen.
+  static constexpr double kLeftOutS = 120.0;
 
   /// @param merge_m  distance within which detections may be of the same point; 0: places are exact.
   explicit FlockPoints(double merge_m = 0.0) : merge_m_(merge_m) {}

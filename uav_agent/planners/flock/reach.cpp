@@ -3,17 +3,19 @@
 #include <algorithm>
 
 #include "uav_agent/flight/voxel_route.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr double kRefusedS = 15.0, kRefusedM = 2.0;  ///< unreachable views, and those this near to one
-constexpr double kShutOffS = 5.0;                    ///< views to which no free cubes of the map lead
-constexpr double kApartM = 4.5;                ///< least distance of a view to other UAVs, and to their next views
-constexpr double kGainM = 0.5, kStallS = 2.5;  ///< a UAV that moves no farther in this time is held up ...
-constexpr double kStalledS = 6.0;              ///< ... and leaves its view out for so long
-constexpr double kInTheWayM = 9.0;             ///< the nearest UAV within this holds this one up, and is avoided
-constexpr double kAwayCosine = 0.2;
+constexpr double kRefusedS = 15.0;   ///< so long, a UAV leaves out a view that it could not reach, ...; chosen
+constexpr double kRefusedM = 2.0;    ///< ... and views this near to it; chosen
+constexpr double kShutOffS = 5.0;    ///< the same for views to which no free cubes of the map lead; chosen
+constexpr double kApartM = 4.5;      ///< least distance of a view to other UAVs, and to their next views; chosen
+constexpr double kStallS = 2.5;      ///< a UAV that moves no farther than kStaysM in this time is held up (chosen) ...
+constexpr double kStalledS = 6.0;    ///< ... and leaves its view out for so long; chosen
+constexpr double kInTheWayM = 9.0;   ///< the nearest UAV within this holds this one up, and is avoided; chosen
+constexpr double kAwayCosine = 0.2;  ///< a view is in the direction of a UAV if the cosine is greater; chosen
 
 }  // namespace
 
@@ -75,7 +77,7 @@ std::optional<FlockView> FlockReach::first(const std::vector<FlockView>& views, 
 }
 
 bool FlockReach::stalls(const PlannerInput& in, const std::optional<Vector3d>& to_W) {
-  if (!to_W || (in.state.p_WB - gained_p_W_).norm() > kGainM) {
+  if (!to_W || (in.state.p_WB - gained_p_W_).norm() > kStaysM) {
     gained_p_W_ = in.state.p_WB;
     gained_at_ = in.tick;
   }

@@ -6,13 +6,15 @@
 namespace skein::agent {
 namespace {
 
-constexpr std::size_t kMostFirst = 5;             ///< most views tried as the beginning of a route
-constexpr double kFarM = 10.0;                    ///< longer ways are flown fast
-constexpr double kDetour = 1.5, kDetourM = 6.0;   ///< a way around structure: factor and metres in addition
-constexpr double kProveMps = 1.8, kProveS = 3.0;  ///< speed through space not proved free, and time in addition
-constexpr double kKeep = 1.2;                     ///< factor for routes that begin with the present view
-constexpr double kAgain = 0.3;   ///< share of a second survey view that counts: the first one shows the rest
-constexpr double kLeast = 0.02;  ///< views with less gain are left out [points]
+constexpr std::size_t kMostFirst = 5;            ///< most views tried as the beginning of a route; chosen
+constexpr double kDetour = 1.5, kDetourM = 6.0;  ///< a way around structure: factor and metres in addition; chosen
+/// Speed through space that is not proved free, and time in addition. Chosen; decision 36 has 1.2 m/s, too.
+constexpr double kProveMps = 1.8, kProveS = 3.0;
+constexpr double kKeep = 1.2;    ///< factor for routes that begin with the present view; chosen
+constexpr double kAgain = 0.3;   ///< share of a second survey view that counts: the first one shows the rest; chosen
+constexpr double kLeast = 0.02;  ///< views with less gain are left out [points]; chosen
+/// Later views are less certain: after n views, the next one counts 1 / (1 + kDoubt n). Chosen.
+constexpr double kDoubt = 0.25;
 
 double gain_of(const FlockView& view, const FlockTargets& targets, const std::vector<float>& have, double prove_gain,
                bool surveyed = false) {
@@ -33,7 +35,8 @@ double way_s(const Vector3d& from_W, const Vector3d& direction_W, const FlockVie
              bool straight) {
   double way_m = (to.p_WB - from_W).norm();
   if (!straight) way_m = kDetour * way_m + kDetourM;
-  double fly_s = way_m < kFarM ? way_m / pace.near_mps : way_m / pace.far_mps + pace.far_mps / pace.acceleration_mps2;
+  double fly_s =
+      way_m < FlockPace::kFarM ? way_m / pace.near_mps : way_m / pace.far_mps + pace.far_mps / pace.acceleration_mps2;
   if (!to.proved) fly_s = std::max(fly_s, way_m / kProveMps + kProveS);
   const Vector3d direction = (to.aim_W - to.p_WB).normalized();
   const double turn_s = std::acos(std::clamp(direction.dot(direction_W), -1.0, 1.0)) / pace.gimbal_radps;
@@ -76,8 +79,7 @@ FlockRoute find_route(const std::vector<FlockView>& views, const FlockTargets& t
       const FlockView& view = views[next];
       route.views.push_back(next);
       used[next] = 1;
-      // Later views are less certain.
-      const double sure = 1.0 / (1.0 + 0.25 * step);
+      const double sure = 1.0 / (1.0 + kDoubt * step);
       route.gain += sure * gain_of(view, targets, have, prove_gain, surveyed);
       surveyed |= view.survey > 0.0;
       route.time_s += sure * way_s(grid, at_W, looks_W, view, pace);

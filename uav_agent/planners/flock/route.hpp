@@ -11,10 +11,12 @@ namespace skein::agent {
 
 /// Assumed motion between views.
 struct FlockPace {
-  double near_mps = 2.5, far_mps = 5.0;
-  double gimbal_radps = 1.0;
-  double stop_s = 0.4;
-  double acceleration_mps2 = 2.4;
+  static constexpr double kFarM = 10.0;  ///< longer ways are flown fast; chosen
+
+  double near_mps = FlockConfig().inspect_mps, far_mps = FlightConfig().approach_mps;  ///< on short and on long ways
+  double gimbal_radps = 1.0;       ///< vehicle: somewhat less than GimbalConfig::rate_limit_deg_s
+  double stop_s = 0.4;             ///< time for a picture at a view; chosen
+  double acceleration_mps2 = 2.4;  ///< of a UAV on a long way; chosen
 };
 
 struct FlockRoute {

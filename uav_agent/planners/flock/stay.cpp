@@ -5,10 +5,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kReachedM = 0.6;   ///< a view is taken from within this distance ...
-constexpr double kAimed = 0.12;     ///< ... with the camera this near to its direction [rad]
-constexpr double kPictureS = 0.15;  ///< the camera takes a picture within this time
-constexpr double kPatienceS = 2.5;  ///< longest stay at a view, for the camera to turn
+constexpr double kReachedM = 0.6;   ///< a view is taken from within this distance (chosen) ...
+constexpr double kAimed = 0.12;     ///< ... with the camera this near to its direction [rad]; chosen
+constexpr double kPictureS = 0.15;  ///< the camera takes a picture in this time; chosen: above trigger_interval_s
+constexpr double kPatienceS = 2.5;  ///< longest stay at a view, for the camera to turn; chosen
 
 }  // namespace
 

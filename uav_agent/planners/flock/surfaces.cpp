@@ -9,26 +9,25 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAutoVoxelRatio = 0.2, kSmallestVoxelM = 1.0, kLargestVoxelM = 2.0;
-constexpr double kGridAroundM = 12.0;   ///< margin of the grid around the boxes
-constexpr double kBoxMarginM = 1.0;     ///< structure this far outside a box still belongs to it
-constexpr double kFreeAroundM = 0.5;    ///< radius around a cube's middle that must be free
-constexpr double kLowestM = 0.3;        ///< surface below this height does not count
-constexpr double kEndM = 1.2;           ///< last part of a line of sight, in cubes, that belongs to the surface
-constexpr double kPriorM2 = 200.0;      ///< surface with the expected density that the estimate begins with
-constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that counts
-constexpr double kMergeSigmas = 2.0;  ///< detections of a point are this near: standard deviations, relative, per axis
-constexpr double kFacing = 0.17;      ///< least cosine between line of sight and a face's normal
-constexpr double kLeftOutS = 120.0;
-constexpr double kClear = 0.6, kClearFacing = 0.3;  ///< clear view of a point: least quality; least such cosine
-constexpr double kMiddle = 0.6;                     ///< ... within this share of the picture's width and height
-constexpr double kMostAbove = 0.3;                  ///< ... sine of the most elevation above the camera
-constexpr double kRangeRatio = 1.6;  ///< most distance of a face, in units of d*: farther ones are not sharp
+constexpr double kAutoVoxelRatio = 0.2;                        ///< edge of a cube by the camera, in units of d*; chosen
+constexpr double kSmallestVoxelM = 1.0, kLargestVoxelM = 2.0;  ///< limits of this edge; chosen
+constexpr double kFreeAroundM = 0.5;    ///< radius around a cube's middle that must be free; chosen
+constexpr double kLowestM = 0.3;        ///< surface below this height does not count; chosen
+constexpr double kEndCubes = 1.2;       ///< last part of a line of sight that belongs to the surface; chosen
+constexpr double kPriorM2 = 200.0;      ///< surface with the expected density that the estimate begins with; chosen
+constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that counts; chosen
+/// Detections of a point are this near: standard deviations, relative, per axis. Chosen.
+constexpr double kMergeSigmas = 2.0;
+constexpr double kFacing = 0.17;                    ///< least cosine between line of sight and a face's normal; chosen
+constexpr double kClear = 0.6, kClearFacing = 0.3;  ///< clear view of a point: least quality; least such cosine; chosen
+constexpr double kMiddle = 0.6;                     ///< ... within this share of the picture's width and height; chosen
+constexpr double kMostAbove = 0.3;                  ///< ... sine of the most elevation above the camera; chosen
+constexpr double kRangeRatio = 1.6;  ///< most distance of a face, in units of d*: farther ones are not sharp; chosen
 
 VoxelGrid site_grid(const std::vector<OrientedBox>& boxes, const FlockConfig& config, double sharp_m) {
   double voxel_m = config.voxel_m;
   if (voxel_m == 0.0) voxel_m = std::clamp(kAutoVoxelRatio * sharp_m, kSmallestVoxelM, kLargestVoxelM);
-  return limited_volume(boxes, kGridAroundM, voxel_m, config.max_voxels);
+  return limited_volume(boxes, FlockSurvey::kAroundM, voxel_m, config.max_voxels);
 }
 
 }  // namespace
@@ -42,11 +41,12 @@ FlockSurfaces::FlockSurfaces(const FlockConfig& config, const AgentConfig& agent
       grid_(site_grid(boxes, config, sharp_m)),
       voxels_({.around_m = kFreeAroundM}),
       survey_(boxes, config.survey_m),
+      // Formula: norm / sqrt(3) is the deviation per axis; that of a difference of two errors is sqrt(2) times as much.
       points_(kMergeSigmas * std::sqrt(2.0 / 3.0) * deviation_in_flight_m(agent.odometry).norm()),
       listed_(grid_.count(), 0),
       in_site_(grid_.count(), 0),
       looked_here_(grid_.count(), 0) {
-  const double margin_m = kBoxMarginM + 0.5 * grid_.voxel_m();
+  const double margin_m = FlockSurvey::kBoxMarginM + 0.5 * grid_.voxel_m();
   for (Id id = 0; id < grid_.count(); ++id) {
     const Vector3d centre = grid_.centre_W(id);
     in_site_[id] = std::ranges::any_of(boxes, [&](const OrientedBox& box) { return box.contains(centre, margin_m); });
@@ -85,7 +85,7 @@ Vector3d FlockSurfaces::surface_W(Id id) const { return voxels_.surface_W(id).va
 
 bool FlockSurfaces::sees(const Vector3d& p_WC, const Vector3d& p_W) const {
   const Vector3d way = p_WC - p_W;
-  const double length = way.norm(), end_m = kEndM * grid_.voxel_m();
+  const double length = way.norm(), end_m = kEndCubes * grid_.voxel_m();
   return length <= end_m || grid_.sees(p_WC, p_W + way * (end_m / length));
 }
 
@@ -169,7 +169,7 @@ void FlockSurfaces::look_at_faces(const Exposure& exposure) {
       const bool near = off_m <= kRangeRatio * sharp_m_ && ahead_m >= kFacing * off_m;
       const bool shown = near && score->score() >= config_.looked_q;
       std::uint8_t& best = tenths_[listed_[id] - 1][static_cast<std::size_t>(face)];
-      const auto tenths = static_cast<std::uint8_t>(10.0 * score->score());
+      const auto tenths = static_cast<std::uint8_t>(10.0 * score->score());  // format: tenths
       if (!shown && tenths <= best) continue;
       if (!asked && !sees(p_WC, surface)) return;
       asked = true;
@@ -187,7 +187,7 @@ double FlockSurfaces::density() const {
 
 void FlockSurfaces::leave_out(const FlockTarget& target, Tick now) {
   std::erase_if(left_out_, [&](const auto& left_out) { return left_out.second <= now; });
-  left_out_[target.id] = now + ticks(kLeftOutS);
+  left_out_[target.id] = now + ticks(FlockPoints::kLeftOutS);
 }
 
 std::vector<FlockTarget> FlockSurfaces::targets(Tick now) const {
@@ -201,6 +201,7 @@ std::vector<FlockTarget> FlockSurfaces::targets(Tick now) const {
     const Id id = occupied_[place];
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
       if (looked_at(id, face) || !exposed(id, face)) continue;
+      // Format: tenths.
       const double have = 0.1 * tenths_[place][static_cast<std::size_t>(face)];
       const auto number = place * VoxelGrid::kFaces + static_cast<std::uint32_t>(face);
       add({surface_W(id), grid_.normal_W(face), expected, have, false, 2 * number});

@@ -23,7 +23,7 @@ namespace skein::agent {
 /// Something to photograph.
 struct FlockTarget {
   Vector3d p_W = Vector3d::Zero(), n_W = Vector3d::UnitX();
-  double points = 1.0;   ///< known or expected number of interest points
+  double points = 1.0;   ///< known or expected number of interest points; formula: a known point is one
   double have = 0.0;     ///< quality of the best picture so far, 0 to 1
   bool known = false;    ///< a detected point; otherwise surface
   std::uint32_t id = 0;  ///< of this target among all that ever were
@@ -33,7 +33,8 @@ struct FlockTarget {
 
 class FlockSurfaces {
  public:
-  static constexpr double kPictureRatio = 2.1;  ///< in units of d*: farther targets are not worth a picture
+  /// Targets farther than this, in units of d*, are not worth a picture. Chosen; measured with 1.6, too (decision 36).
+  static constexpr double kPictureRatio = 2.1;
 
   /// @param sharp_m  d*.   @param agent, config  must outlive this.
   /// @param blind  this UAV knows no structure, and flies without a map: the faces of the boxes count as surface.

@@ -8,16 +8,16 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kCellsAroundM = 12.0;  ///< margin of the cells around the boxes
-constexpr double kMarginM = 1.0;        ///< margin around a box that is surveyed with it
-constexpr int kEnoughLooks = 3;         ///< one per second: most of the 4 s in which the LiDAR covers all directions
-constexpr int kMostVisits = 2;
-constexpr int kGroup = 3;  ///< cells along an edge of a group
+/// Looks, one per second, after which a cell is surveyed. Chosen: most of the 4 s in which the LiDAR covers all
+/// directions.
+constexpr int kEnoughLooks = 3;
+constexpr int kMostVisits = 2;  ///< a cell that is not surveyed after so many visits is given up; chosen
+constexpr int kGroup = 3;       ///< cells along an edge of a group; chosen
 
 VoxelGrid cells_around(const std::vector<OrientedBox>& boxes) {
-  const auto size_of = [&](double edge) { return operational_size(boxes, {}, kCellsAroundM, 0.0, edge); };
+  const auto size_of = [&](double edge) { return operational_size(boxes, {}, FlockSurvey::kAroundM, 0.0, edge); };
   const double cell_m = fitting_voxel_m(FlockSurvey::kCellM, size_of);
-  return operational_volume(boxes, {}, kCellsAroundM, 0.0, cell_m);
+  return operational_volume(boxes, {}, FlockSurvey::kAroundM, 0.0, cell_m);
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ FlockSurvey::FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m)
       visits_(cells_.count(), 0) {
   for (VoxelGrid::Id id = 0; id < cells_.count(); ++id) {
     const Vector3d centre = cells_.centre_W(id);
-    const auto holds = [&](const OrientedBox& box) { return box.contains(centre, kMarginM); };
+    const auto holds = [&](const OrientedBox& box) { return box.contains(centre, FlockSurvey::kBoxMarginM); };
     if (std::ranges::any_of(boxes, holds)) wanted_[id] = 1;
   }
 }

@@ -19,7 +19,9 @@ struct FlockGap {
 
 class FlockSurvey {
  public:
-  static constexpr double kCellM = 4.0;  ///< edge of a cell; larger on sites of more than 1 km³
+  static constexpr double kCellM = 4.0;       ///< edge of a cell; larger on sites of more than 1 km³; chosen
+  static constexpr double kAroundM = 12.0;    ///< margin of cells and of the map's grid around the boxes; chosen
+  static constexpr double kBoxMarginM = 1.0;  ///< what is this far outside a box still belongs to it; chosen
 
   FlockSurvey(const std::vector<OrientedBox>& boxes, double survey_m);
 

@@ -6,9 +6,11 @@ namespace skein::agent {
 namespace {
 
 constexpr std::string_view kName = "flock/1";
-constexpr std::size_t kPointsRoom = 4000;
-constexpr double kRateUnit = 0.1, kRateS = 20.0;
-constexpr std::size_t kMaxChunks = 8, kMaxChunkBytes = 3000;  ///< in one message
+constexpr std::size_t kPointsRoom = 4000;  ///< most bytes of points in a message; chosen: all parts fit a payload
+constexpr double kRateUnit = 0.1;          ///< unit of a rate in a message [points/s]; format
+constexpr double kRateS = 20.0;            ///< age at which another UAV's rate expires; chosen
+/// Most chunks of the map in a message, and most bytes of them. Chosen: all parts of a message fit a payload.
+constexpr std::size_t kMaxChunks = 8, kMaxChunkBytes = 3000;
 
 }  // namespace
 
@@ -37,7 +39,7 @@ void FlockTalk::speak(const PlannerInput& in, const VoxelGrid& grid, const Flock
   const PartTimer timer(in.parts, "planner/talk");
   if (!agent_.due(in.k, config_.share_s, 2 * agent_.self)) return;
   PayloadWriter writer;
-  writer.u8(static_cast<std::uint8_t>(std::clamp(word.rate / kRateUnit, 0.0, 255.0)));
+  writer.u8(static_cast<std::uint8_t>(std::clamp(word.rate / kRateUnit, 0.0, 255.0)));  // format: a byte
   const std::size_t count = std::min(word.claims.size(), kMostClaims);
   writer.u8(static_cast<std::uint8_t>(count));
   for (std::size_t i = 0; i < count; ++i) {

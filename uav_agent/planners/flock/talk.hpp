@@ -8,6 +8,7 @@
 
 #include "uav_agent/api/planner.hpp"
 #include "uav_agent/maps/map_exchange.hpp"
+#include "uav_agent/planners/flock/config.hpp"
 #include "uav_agent/planners/flock/points.hpp"
 
 namespace skein::agent {
@@ -25,11 +26,11 @@ struct FlockWord {
 
 class FlockTalk {
  public:
-  static constexpr std::size_t kMostClaims = 3;
+  static constexpr std::size_t kMostClaims = 3;  ///< in a message; chosen
 
   struct Config {
-    double share_s = 0.5;  ///< time between two messages
-    double claim_s = 4.0;  ///< age at which a claim expires
+    double share_s = FlockConfig().share_s;  ///< time between two messages
+    double claim_s = FlockConfig().claim_s;  ///< age at which a claim expires
   };
 
   /// @param agent  must outlive this.

@@ -7,7 +7,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< distance behind an explorer; between two places
+constexpr double kFollowM = 6.0, kTrailM = 2.0;  ///< distance behind an explorer; between two places; chosen
 
 }  // namespace
 

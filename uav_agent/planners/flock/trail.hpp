@@ -11,7 +11,7 @@ namespace skein::agent {
 
 class FlockTrail {
  public:
-  static constexpr std::size_t kMostTrail = 60;
+  static constexpr std::size_t kMostTrail = 60;  ///< chosen
 
   /// Adds the position of an explorer in line of sight.
   void note(const Vector3d& p_W);

@@ -12,24 +12,31 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kTilt = 0.6;        ///< angle of tilted views to the target's normal [rad]
-constexpr double kPlaceM = 2.0;      ///< edge of the cells in which votes for places add up
-constexpr double kPieceM = 4.0;      ///< edge of the pieces of surface that vote as one
-constexpr int kDirections = 3;       ///< cells of directions along each axis
-constexpr double kNearAxis = 1.3;    ///< a component of at least 0.5 / 1.3 counts as along its axis
-constexpr double kLeastOpen = 0.04;  ///< targets with less to gain do not vote [points]
-constexpr double kWayM = 20.0;       ///< a view's votes are divided by its distance plus this
-constexpr double kLeastGain = 0.05, kLeastQuality = 0.2;
-constexpr double kGlanceTurn = 0.8, kGlanceFacing = 0.35;  ///< glances: most turn [rad]; least cosine to the normal
-constexpr double kLeastGlance = 0.3;                       ///< glances with less gain are left out [points]
-constexpr std::size_t kMostAims = 5;
-constexpr std::size_t kMostLookouts = 20;
-constexpr std::size_t kMostGaps = 40;
-constexpr double kSurveyShare = 0.7;
-constexpr double kGapM = 10.0;  ///< distance from a gap to the places proposed for it
-constexpr int kGapSides = 8;
-constexpr double kGapArea = 16.0;  ///< expected surface in a survey cell, before any was found [m^2]
-constexpr double kPriorCells = 20.0;
+constexpr double kTilt = 0.6;              ///< angle of tilted views to the target's normal [rad]; chosen
+constexpr double kPlaceM = 2.0;            ///< edge of the cells in which votes for places add up; chosen
+constexpr double kPieceM = 4.0;            ///< edge of the pieces of surface that vote as one; chosen
+constexpr int kDirections = 3;             ///< cells of directions along each axis; geometry: -1, 0, 1
+constexpr double kNearAxis = 1.3;          ///< a component of at least 0.5 / 1.3 counts as along its axis; chosen
+constexpr double kLeastOpen = 0.04;        ///< targets with less to gain do not vote [points]; chosen
+constexpr double kWayM = 20.0;             ///< a view's votes are divided by its distance plus this; chosen
+constexpr double kLeastQuality = 0.2;      ///< worse pictures are not counted; formula: RulesConfig::min_point_score
+constexpr double kLeastSight = 0.01;       ///< a view does not show targets of which it gains less [points]; chosen
+constexpr double kLeastClaimM = 0.1;       ///< a claim with a nearer aim has no direction: it is damaged; chosen
+constexpr double kGlanceTurn = 0.8;        ///< glances: most turn of the camera [rad]; chosen
+constexpr double kGlanceFacing = 0.35;     ///< ... least cosine between line of sight and normal; chosen
+constexpr double kGlanceRatio = 1.3;       ///< ... most distance, in distances of a far view; chosen
+constexpr double kGlanceNearM = 1.0;       ///< ... least distance; chosen
+constexpr double kGlanceYawSpare = 0.3;    ///< ... least angle to the gimbal's yaw limit [rad]; chosen
+constexpr double kLeastGlance = 0.3;       ///< glances with less gain are left out [points]; chosen
+constexpr std::size_t kMostAims = 5;       ///< most aims evaluated for a glance; chosen: bounds the CPU time
+constexpr std::size_t kMostLookouts = 20;  ///< chosen: bounds the CPU time
+constexpr std::size_t kMostGaps = 40;      ///< most gaps for which places are proposed; chosen: bounds the CPU time
+constexpr double kSurveyShare = 0.7;       ///< surveyed_m() in units of survey_m; chosen
+constexpr double kGapM = 10.0;             ///< distance from a gap to the places proposed for it; chosen
+constexpr int kGapSides = 8;               ///< places proposed around a gap; chosen
+/// Expected surface in a survey cell, before any was found. Chosen: one side of the cell.
+constexpr double kCellSurfaceM2 = FlockSurvey::kCellM * FlockSurvey::kCellM;
+constexpr double kPriorCells = 20.0;  ///< cells with this surface that the estimate begins with; chosen
 
 struct Direction {
   double yaw = 0.0, pitch = 0.0;  ///< pitch down
@@ -199,7 +206,7 @@ void FlockViews::judge(const FlockSurfaces& surfaces, const FlockTargets& target
     const auto p_C = exposure.view(target.p_W);
     if (!p_C) return;
     const auto score = exposure.score(*p_C, target.n_W);
-    if (!score || score->q_res < kLeastQuality || target.points * (score->q_res - target.have) < 0.01) return;
+    if (!score || score->q_res < kLeastQuality || target.points * (score->q_res - target.have) < kLeastSight) return;
     if (surfaces.sees(exposure.position(), target.p_W)) view.sights.push_back({i, static_cast<float>(score->q_res)});
   });
 }
@@ -213,14 +220,14 @@ std::vector<Vector3d> FlockViews::aims(const FlockTargets& targets, const Vector
   const Vector3d axis_W = camera_state(state, gimbal, agent_.vehicle.camera).X_WC.linear().col(0);
   const double yaw = roll_pitch_yaw(state.q_WB.toRotationMatrix()).yaw;
   const Vector3d ahead_W(std::cos(yaw), std::sin(yaw), 0.0);
-  const double yaw_limit = std::cos(agent_.vehicle.gimbal.yaw_limit_deg * kRadPerDeg - 0.3);
+  const double yaw_limit = std::cos(agent_.vehicle.gimbal.yaw_limit_deg * kRadPerDeg - kGlanceYawSpare);
   const double far_m = config_.far_ratio * sharp_m_;
   std::map<std::array<int, 3>, Piece> pieces;
   targets.near(p_WB, [&](std::uint32_t i) {
     const FlockTarget& target = targets.all()[i];
     const Vector3d way = target.p_W - p_WB;
     const double length = way.norm();
-    if (length > 1.3 * far_m || length < 1.0 || -way.dot(target.n_W) < kGlanceFacing * length) return;
+    if (length > kGlanceRatio * far_m || length < kGlanceNearM || -way.dot(target.n_W) < kGlanceFacing * length) return;
     const double turn = std::acos(std::clamp(way.dot(axis_W) / length, -1.0, 1.0));
     if (turn > kGlanceTurn || way.dot(ahead_W) < yaw_limit * way.head<2>().norm()) return;
     const Eigen::Vector3i place = (target.p_W / kPieceM).array().floor().cast<int>();
@@ -264,7 +271,7 @@ void FlockViews::count_claims(const FlockSurfaces& surfaces, const std::vector<F
                               FlockTargets& targets) const {
   for (const FlockClaim& claim : claims) {
     FlockView view{.p_WB = claim.p_WB, .aim_W = claim.aim_W};
-    if (!((view.aim_W - view.p_WB).norm() > 0.1)) continue;
+    if (!((view.aim_W - view.p_WB).norm() > kLeastClaimM)) continue;
     judge(surfaces, targets, view);
     for (const FlockView::Sight& sight : view.sights) {
       FlockTarget& target = targets.all()[sight.target];
@@ -278,7 +285,7 @@ void FlockViews::find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space
   if (lack <= 0.0) return;
   const FlockSurvey& survey = surfaces.survey();
   const double cell_m2 =
-      (surfaces.surface_m2() + kPriorCells * kGapArea) / (static_cast<double>(survey.surveyed()) + kPriorCells);
+      (surfaces.surface_m2() + kPriorCells * kCellSurfaceM2) / (static_cast<double>(survey.surveyed()) + kPriorCells);
   const double points = lack * surfaces.density() * cell_m2;
   std::vector<FlockGap> gaps = survey.gaps();
   std::ranges::stable_sort(gaps, std::greater<>(),

@@ -52,7 +52,7 @@ class FlockTargets {
 
 class FlockViews {
  public:
-  static constexpr double kClaimedShare = 0.9;
+  static constexpr double kClaimedShare = 0.9;  ///< chosen
 
   /// @param config, agent  must outlive this.   @param sharp_m  d*.
   FlockViews(const FlockConfig& config, const AgentConfig& agent, double sharp_m)

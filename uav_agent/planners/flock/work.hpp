@@ -22,7 +22,8 @@ class FlockWork {
   double lack(const std::vector<double>& others, const FlockTargets& targets, double left_s, std::size_t uavs) const;
 
  private:
-  static constexpr double kGoodRate = 3.0;  ///< gain that a route promises where there are enough points [points/s]
+  /// Gain that a route promises where there are enough points [points/s]. Chosen.
+  static constexpr double kGoodRate = 3.0;
 
   double rate_ = 0.0, best_rate_ = kGoodRate;
 };
