@@ -40,21 +40,21 @@ struct KiosConfig {
   KiosConfig resolved() const;
 
   void describe(auto& r) {
-    r.field("voxel_m", voxel_m, within(0.0, 20.0));               // chosen
-    r.field("lanes", lanes, within(1, 16));                       // chosen
-    r.field("min_hits", min_hits, within(1, 100));                // chosen
-    r.field("map_mps", map_mps, within(0.5, 20.0));               // chosen
-    r.field("standoff_ratio", standoff_ratio, within(0.2, 1.5));  // chosen
-    r.field("nearest_ratio", nearest_ratio, within(0.0, 1.5));    // chosen
-    r.field("settle_mps", settle_mps, within(0.01, 5.0));         // chosen
-    r.field("aim_deg", aim_deg, within(0.1, 90.0));               // chosen
-    r.field("dwell_s", dwell_s, within(0.0, 10.0));               // chosen
-    r.field("stop_s", stop_s, within(0.0, 60.0));                 // chosen
-    r.field("max_tasks", max_tasks, within(1, 2000));             // chosen
-    r.field("effort", effort, within(0, 1e7));                    // chosen
+    r.field("voxel_m", voxel_m, within(0.0, 20.0));
+    r.field("lanes", lanes, within(1, 16));
+    r.field("min_hits", min_hits, within(1, 100));
+    r.field("map_mps", map_mps, within(0.5, 20.0));
+    r.field("standoff_ratio", standoff_ratio, within(0.2, 1.5));
+    r.field("nearest_ratio", nearest_ratio, within(0.0, 1.5));
+    r.field("settle_mps", settle_mps, within(0.01, 5.0));
+    r.field("aim_deg", aim_deg, within(0.1, 90.0));
+    r.field("dwell_s", dwell_s, within(0.0, 10.0));
+    r.field("stop_s", stop_s, within(0.0, 60.0));
+    r.field("max_tasks", max_tasks, within(1, 2000));
+    r.field("effort", effort, within(0, 1e7));
     r.field("reserve", reserve, within(0, kMostReserve));
-    r.field("share_s", share_s, within(0.05, 10.0));  // chosen
-    r.field("claim_s", claim_s, within(0.1, 60.0));   // chosen
+    r.field("share_s", share_s, within(0.05, 10.0));
+    r.field("claim_s", claim_s, within(0.1, 60.0));
     r.field("wait_s", wait_s, within(0.0, kNeverS));
     r.field("silence_s", silence_s, within(0.0, kNeverS));
     r.field("maps_anew", maps_anew);

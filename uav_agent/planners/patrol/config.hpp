@@ -19,10 +19,10 @@ struct PatrolConfig {
   void describe(auto& r) {
     r.field("top", top);
     r.field("bottom", bottom);
-    r.field("standoff_ratio", standoff_ratio, within(0.3, 1.5));  // chosen
-    r.field("blind_ratio", blind_ratio, within(0.2, 1.5));        // chosen
-    r.field("overlap", overlap, within(0.0, 0.8));                // chosen
-    r.field("speed_gain", speed_gain, within(0.2, 5.0));          // chosen
+    r.field("standoff_ratio", standoff_ratio, within(0.3, 1.5));
+    r.field("blind_ratio", blind_ratio, within(0.2, 1.5));
+    r.field("overlap", overlap, within(0.0, 0.8));
+    r.field("speed_gain", speed_gain, within(0.2, 5.0));
     flight.describe(r);
   }
 };

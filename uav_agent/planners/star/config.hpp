@@ -56,34 +56,34 @@ struct StarConfig {
   StarConfig resolved() const;
 
   void describe(auto& r) {
-    r.field("voxel_m", voxel_m, within(0.0, 20.0));              // chosen
-    r.field("max_voxels", max_voxels, within(1000, 2'000'000));  // chosen
+    r.field("voxel_m", voxel_m, within(0.0, 20.0));
+    r.field("max_voxels", max_voxels, within(1000, 2'000'000));
     r.field("volume_weight", volume_weight, within(0.0, 1.0));
     r.field("share", share);
-    r.field("explore_mps", explore_mps, within(0.2, 20.0));       // chosen
-    r.field("inspect_mps", inspect_mps, within(0.2, 20.0));       // chosen
-    r.field("replan_s", replan_s, within(0.2, 30.0));             // chosen
-    r.field("covered_s", covered_s, within(0.1, 30.0));           // chosen
-    r.field("turn_s", turn_s, within(0.0, 30.0));                 // chosen
-    r.field("round_m", round_m, within(0.0, 10.0));               // chosen
-    r.field("horizon_m", horizon_m, within(2.0, 200.0));          // chosen
-    r.field("margin_m", margin_m, within(0.0, 20.0));             // chosen
-    r.field("cluster_m", cluster_m, within(2.0, 50.0));           // chosen
-    r.field("min_cluster", min_cluster, within(1, 1000));         // chosen
-    r.field("ring_inner_m", ring_inner_m, within(1.0, 50.0));     // chosen
-    r.field("ring_outer_m", ring_outer_m, within(1.0, 50.0));     // chosen
-    r.field("refine", refine, within(0, 20));                     // chosen
-    r.field("looks", looks, within(1, 200));                      // chosen
-    r.field("standoff_ratio", standoff_ratio, within(0.2, 1.5));  // chosen
-    r.field("seen_ratio", seen_ratio, within(0.2, 3.0));          // chosen
-    r.field("oblique_deg", oblique_deg, within(1.0, 89.0));       // chosen
-    r.field("patch_m", patch_m, within(0.0, 50.0));               // chosen
-    r.field("view_radius_m", view_radius_m, within(0.0, 100.0));  // chosen
-    r.field("history_s", history_s, within(0.0, 100.0));          // chosen
-    r.field("mate_s", mate_s, within(0.0, 100.0));                // chosen
-    r.field("max_views", max_views, within(1, 1000));             // chosen
-    r.field("effort", effort, within(0, 1e7));                    // chosen
-    r.field("share_s", share_s, within(0.05, 10.0));              // chosen
+    r.field("explore_mps", explore_mps, within(0.2, 20.0));
+    r.field("inspect_mps", inspect_mps, within(0.2, 20.0));
+    r.field("replan_s", replan_s, within(0.2, 30.0));
+    r.field("covered_s", covered_s, within(0.1, 30.0));
+    r.field("turn_s", turn_s, within(0.0, 30.0));
+    r.field("round_m", round_m, within(0.0, 10.0));
+    r.field("horizon_m", horizon_m, within(2.0, 200.0));
+    r.field("margin_m", margin_m, within(0.0, 20.0));
+    r.field("cluster_m", cluster_m, within(2.0, 50.0));
+    r.field("min_cluster", min_cluster, within(1, 1000));
+    r.field("ring_inner_m", ring_inner_m, within(1.0, 50.0));
+    r.field("ring_outer_m", ring_outer_m, within(1.0, 50.0));
+    r.field("refine", refine, within(0, 20));
+    r.field("looks", looks, within(1, 200));
+    r.field("standoff_ratio", standoff_ratio, within(0.2, 1.5));
+    r.field("seen_ratio", seen_ratio, within(0.2, 3.0));
+    r.field("oblique_deg", oblique_deg, within(1.0, 89.0));
+    r.field("patch_m", patch_m, within(0.0, 50.0));
+    r.field("view_radius_m", view_radius_m, within(0.0, 100.0));
+    r.field("history_s", history_s, within(0.0, 100.0));
+    r.field("mate_s", mate_s, within(0.0, 100.0));
+    r.field("max_views", max_views, within(1, 1000));
+    r.field("effort", effort, within(0, 1e7));
+    r.field("share_s", share_s, within(0.05, 10.0));
     r.field("follow_s", follow_s, within(0.0, kNeverS));
     r.field("helps", helps);
     r.field("explorers_inspect", explorers_inspect);

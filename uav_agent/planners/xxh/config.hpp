@@ -96,32 +96,32 @@ struct XxhConfig {
   XxhConfig resolved() const;
 
   void describe(auto& r) {
-    r.field("freeze_s", freeze_s, within(0.0, 55.0));  // chosen
+    r.field("freeze_s", freeze_s, within(0.0, 55.0));
     r.field("reported_only", reported_only);
-    r.field("assign_every_s", assign_every_s, within(0.05, 10.0));       // chosen
-    r.field("assignment_wait_s", assignment_wait_s, within(0.0, 55.0));  // chosen
-    r.field("split_tolerance", split_tolerance, within(0.0, 0.05));      // chosen
-    r.field("rounds", rounds, within(1, 100));                           // chosen
-    r.field("voxel_m", voxel_m, within(1.0, 20.0));                      // chosen
-    r.field("margin_m", margin_m, within(1.0, 30.0));                    // chosen
-    r.field("rim_m", rim_m, within(2.0, 30.0));                          // chosen
-    r.field("spiral_step", spiral_step, within(1, 100));                 // chosen
+    r.field("assign_every_s", assign_every_s, within(0.05, 10.0));
+    r.field("assignment_wait_s", assignment_wait_s, within(0.0, 55.0));
+    r.field("split_tolerance", split_tolerance, within(0.0, 0.05));
+    r.field("rounds", rounds, within(1, 100));
+    r.field("voxel_m", voxel_m, within(1.0, 20.0));
+    r.field("margin_m", margin_m, within(1.0, 30.0));
+    r.field("rim_m", rim_m, within(2.0, 30.0));
+    r.field("spiral_step", spiral_step, within(1, 100));
     r.field("begin", begin);
     r.field("first_turn", first_turn);
     r.field("retry_s", retry_s, within(0.0, kNeverS));
     r.field("time_share", time_share, within(0.0, 1.0));
-    r.field("explore_mps", explore_mps, within(0.2, 20.0));  // chosen
+    r.field("explore_mps", explore_mps, within(0.2, 20.0));
     r.field("wait_at", wait_at);
-    r.field("layer_step", layer_step, within(1, 20));  // chosen
+    r.field("layer_step", layer_step, within(1, 20));
     r.field("order", order);
-    r.field("standoff_ratio", standoff_ratio, within(0.0, 1.5));  // chosen
-    r.field("aim_rad", aim_rad, within(0.005, 1.5));              // chosen
-    r.field("settle_mps", settle_mps, within(0.01, 5.0));         // chosen
-    r.field("dwell_s", dwell_s, within(0.0, 10.0));               // chosen
-    r.field("cell_s", cell_s, within(0.1, 60.0));                 // chosen
-    r.field("leader_share", leader_share, within(0.1, 1.0));      // chosen
-    r.field("share_s", share_s, within(0.05, 10.0));              // chosen
-    r.field("claim_s", claim_s, within(0.1, kNeverS));            // chosen
+    r.field("standoff_ratio", standoff_ratio, within(0.0, 1.5));
+    r.field("aim_rad", aim_rad, within(0.005, 1.5));
+    r.field("settle_mps", settle_mps, within(0.01, 5.0));
+    r.field("dwell_s", dwell_s, within(0.0, 10.0));
+    r.field("cell_s", cell_s, within(0.1, 60.0));
+    r.field("leader_share", leader_share, within(0.1, 1.0));
+    r.field("share_s", share_s, within(0.05, 10.0));
+    r.field("claim_s", claim_s, within(0.1, kNeverS));
     r.field("all_give_way", all_give_way);
     r.field("silence_s", silence_s, within(1.0, kNeverS));
     r.field("gather_s", gather_s, within(0.0, kNeverS));
