@@ -112,7 +112,8 @@ std::vector<std::string> without_source(const SourceFile& file) {
     if (std::ranges::all_of(literals, [](const Literal& literal) { return literal.value == 0.0; })) continue;
     const Use use = use_in(file, line);
     if (file.path == kFlightConfig && use != Use::constant)
-      continue;  // a parameter; docs/flight-core.md names its source
+      continue;                                                // a parameter; docs/flight-core.md names its source
+    if (line.find("r.field(") != std::string::npos) continue;  // the limits of a parameter need no source
     const bool shifts = line.find("<<") != std::string::npos || line.find(">>") != std::string::npos;
     std::vector<std::string> of_line;
     for (const Literal& literal : literals) {

@@ -64,6 +64,10 @@ TEST(SourcesOfNumbers, AreRequiredInTheAgentExceptInItsTestsAndParameters) {
   EXPECT_EQ(bare_in("  double error_m = 0.33;\ninline constexpr double kStepM = 0.7;\n",
                     "uav_agent/flight_core/flight_config.hpp"),
             Numbers{"2: 0.7"});
+  EXPECT_EQ(
+      bare_in("    r.field(\"step_m\", step_m, within(0.2, 20.0));\n    r.check(step_m != 0.7, \"step_m\", text);\n"),
+      Numbers{"2: 0.7"})
+      << "limits of parameters must need no source";
 }
 
 TEST(SourcesOfNumbers, MayBeMissingWhereTheListSaysSo) {
