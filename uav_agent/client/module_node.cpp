@@ -252,7 +252,8 @@ class Listener {
   /// (topic, payload), or None when nothing came within `timeout_s`.
   py::object next(double timeout_s) {
     ListenerNode& node = joined_.node();
-    for (auto left = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * timeout_s));; left -= kLook) {
+    constexpr double kMsPerS = 1e3;  // formula
+    for (auto left = std::chrono::milliseconds(static_cast<std::int64_t>(kMsPerS * timeout_s));; left -= kLook) {
       std::optional<ListenerNode::Heard> heard;
       {
         const py::gil_scoped_release released;
