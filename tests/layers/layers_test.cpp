@@ -45,7 +45,7 @@ TEST_F(Layers, NoCodeSleeps) { expect_none(check_sleeping(tree_)); }
 TEST_F(Layers, TestsReadNoClock) { expect_none(check_clocks(tree_)); }
 TEST_F(Layers, FilesAreShort) { expect_none(check_length(tree_)); }
 TEST_F(Layers, FunctionsAreShort) { expect_none(check_functions(tree_, long_functions())); }
-TEST_F(Layers, NumbersOfTheAgentNameTheirSource) { expect_none(check_sources(tree_, bare_numbers())); }
+TEST_F(Layers, NumbersOfTheAgentNameTheirSource) { expect_none(check_sources(tree_)); }
 TEST_F(Layers, LinesAreShort) { expect_none(check_columns(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
 TEST_F(Layers, FilesThatAreNamedExist) { expect_none(check_references(tree_)); }

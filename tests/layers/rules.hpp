@@ -71,18 +71,12 @@ const std::vector<LongFunction>& long_functions();
 /// which must have more, and those of tests.
 Violations check_functions(const Tree& tree, const std::vector<LongFunction>& known, std::size_t most_lines = 60);
 
-/// A file in which a given number of numbers may lack a source.
-struct BareNumbers {
-  std::string path;
-  std::size_t count = 0;
-};
-/// The list of this project.
-const std::vector<BareNumbers>& bare_numbers();
 /// Numbers in uav_agent/ say where they come from: each constant, each default of a member, and each other number,
 /// apart from 0, 0.5, 1, 2, the number of axes, and bits and indices. The comment in its line, or right above its
 /// statement, has one of the words chosen, measured, formula, geometry, vehicle, sensor, rounding, numeric, format and
-/// memory. docs/flight-core.md has the sources of the parameters in FlightConfig.
-Violations check_sources(const Tree& tree, const std::vector<BareNumbers>& known);
+/// memory. docs/flight-core.md has the sources of the parameters in FlightConfig. The limits of parameters need none: a
+/// line with `r.field(` is left out.
+Violations check_sources(const Tree& tree);
 
 /// No line of C++, Python, CMake, shell or Markdown has more than `most_columns`, except lines inside a string literal,
 /// and code, tables and images of Markdown.

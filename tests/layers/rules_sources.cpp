@@ -127,28 +127,12 @@ std::vector<std::string> without_source(const SourceFile& file) {
 
 }  // namespace
 
-const std::vector<BareNumbers>& bare_numbers() {
-  static const std::vector<BareNumbers> kBare = {
-      {"uav_agent/client/module_node.cpp", 1},
-  };
-  return kBare;
-}
-
-Violations check_sources(const Tree& tree, const std::vector<BareNumbers>& known) {
+Violations check_sources(const Tree& tree) {
   Violations violations;
   for (const SourceFile& file : tree) {
     if (file.folder() != "uav_agent" || !file.is_cpp() || file.is_test()) continue;
-    const std::vector<std::string> bare = without_source(file);
-    const auto listed = std::ranges::find(known, file.path, &BareNumbers::path);
-    const std::size_t most = listed == known.end() ? 0 : listed->count;
-    if (bare.size() > most) {
-      const std::string among =
-          most == 0 ? "" : "; of the numbers in this file, " + std::to_string(most) + " may lack it";
-      for (const std::string& place : bare) {
-        violations.push_back(place + " has no source in its comment: chosen, measured, formula, ..." + among);
-      }
-    }
-    if (bare.empty() && most > 0) violations.push_back(file.path + ":1: needs no entry in the list any more");
+    for (const std::string& place : without_source(file))
+      violations.push_back(place + " has no source in its comment: chosen, measured, formula, ...");
   }
   return violations;
 }

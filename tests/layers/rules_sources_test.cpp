@@ -22,7 +22,7 @@ SourceFile cpp_file(const std::string& path, const std::string& text) {
 /// "line: number" of each number without a source in a file of the agent.
 std::vector<std::string> bare_in(const std::string& text, const std::string& path = "uav_agent/maps/a.hpp") {
   std::vector<std::string> found;
-  for (const std::string& violation : check_sources({cpp_file(path, text)}, {})) {
+  for (const std::string& violation : check_sources({cpp_file(path, text)})) {
     EXPECT_TRUE(violation.starts_with(path + ":")) << violation;
     const std::string place = violation.substr(path.size() + 1);
     found.push_back(place.substr(0, place.find(" has")));
@@ -68,14 +68,6 @@ TEST(SourcesOfNumbers, AreRequiredInTheAgentExceptInItsTestsAndParameters) {
       bare_in("    r.field(\"step_m\", step_m, within(0.2, 20.0));\n    r.check(step_m != 0.7, \"step_m\", text);\n"),
       Numbers{"2: 0.7"})
       << "limits of parameters must need no source";
-}
-
-TEST(SourcesOfNumbers, MayBeMissingWhereTheListSaysSo) {
-  const Tree tree = {cpp_file("uav_agent/a.cpp", "f(0.7);\nf(1'000);\n"), cpp_file("uav_agent/b.cpp", "f(2);\n")};
-  EXPECT_EQ(check_sources(tree, {{"uav_agent/a.cpp", 2}}), Violations{});
-  EXPECT_EQ(check_sources(tree, {{"uav_agent/a.cpp", 1}}).size(), 2U);
-  EXPECT_EQ(check_sources(tree, {{"uav_agent/a.cpp", 2}, {"uav_agent/b.cpp", 1}}).size(), 1U)
-      << "an entry of the list for a file without such numbers must be reported";
 }
 
 }  // namespace
