@@ -20,7 +20,7 @@ namespace skein::cli {
 namespace {
 
 constexpr std::size_t kMostLines = 400, kFramesQuoted = 5;
-constexpr std::string_view kNamesHead = "[skein] with names, as far as there are symbols:";
+constexpr std::string_view kNamesHead = "[skein] the same backtrace with names, where symbols are known:";
 
 struct Frame {
   std::string file, offset;

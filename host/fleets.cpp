@@ -31,7 +31,8 @@ std::string variable(const Words& environment, const std::string& name) {
 
 double number_or(const std::string& text, double otherwise) { return parse_number(text).value_or(otherwise); }
 
-/// The fleet's program that runs with this command line; empty: none. A debugger's own words come before the program's.
+/// Name of the fleet's program whose command line this is; empty: of none. The command line of a debugger contains that
+/// of the program, but not at its beginning, so it is not taken for the program.
 std::string program_in(const Words& words) {
   if (words.size() < 2 || words[1] != "--scenario" || value_after(words, "--out").empty()) return {};
   const std::string uav = value_after(words, "--uav");
@@ -71,7 +72,8 @@ std::vector<RunningFleet> running_fleets(uid_t user) {
       if (program == programs::kSimServer) read_server(pid, words, fleet);
       continue;
     }
-    // A user's command is the first process with its variables; the others are its children.
+    // A user's command (exec:) has these variables, and its children inherit them: the command is the process whose
+    // parent does not have them.
     const Words environment = words_of(pid, "environ");
     const std::string uav = variable(environment, "SKEIN_UAV"), out = variable(environment, "SKEIN_OUT");
     if (uav.empty() || out.empty() || has_variables(parent_of(pid), uav, out)) continue;
@@ -94,11 +96,11 @@ RunningFleet chosen_fleet(const std::optional<std::filesystem::path>& dir, const
       return !std::filesystem::equivalent(fleet.dir, *dir, gone);
     });
     if (fleets.empty()) {
-      throw InputError(option + " " + dir->string() + ": no fleet writes there; `skein ps` lists them");
+      throw InputError(option + " " + dir->string() + ": no fleet writes there; `skein ps` lists the fleets that fly");
     }
   }
   if (fleets.empty()) throw InputError(command + ": no fleet of yours is flying");
-  // Fleets of other network namespaces count only if there is none in this one.
+  // Choose a fleet of another network namespace only if none flies in this one.
   const auto elsewhere = [](const RunningFleet& fleet) { return fleet.elsewhere; };
   if (!std::ranges::all_of(fleets, elsewhere)) std::erase_if(fleets, elsewhere);
   std::vector<std::string> names;
@@ -113,7 +115,8 @@ std::string shown_folder(const std::filesystem::path& dir) {
 }
 
 std::optional<double> simulated_s(const RunningFleet& fleet) {
-  const std::vector<std::string> lines = last_lines(fleet.dir / run_folder::kTrajectories, 2);  // the last may be cut
+  const std::vector<std::string> lines =
+      last_lines(fleet.dir / run_folder::kTrajectories, 2);  // the last line may be incomplete
   return lines.size() < 2 ? std::nullopt : parse_number(lines[0].substr(0, lines[0].find(',')));
 }
 

@@ -1,7 +1,8 @@
 // A minder is a process between the launcher and a program that may leave children behind, such as a user's command or
 // agent program. If a process below the minder loses its parent, the kernel makes it a child of the minder (prctl(2),
 // PR_SET_CHILD_SUBREAPER), in whatever session or process group it runs. So the minder can kill all these processes
-// when the program has ended or the launcher has died.   Threads: one, as the launcher, of which a minder is a fork.
+// when the program has ended or the launcher has died.
+// Threads: one, because a minder is a fork of the launcher, which has one thread.
 #pragma once
 
 #include <sys/types.h>

@@ -11,7 +11,7 @@ std::optional<UavPlanner> ground_program(const Planners& planners, const std::fi
   const UavPlanner& planner = planners.fallback;
   if (exec_command(planner.spec)) return std::nullopt;
   const std::string name = planner.spec.substr(0, planner.spec.find(':'));
-  // A missing agent program lists nothing; the error is reported where the program is needed.
+  // For a missing agent program, the list is empty: the code that needs the program reports the error.
   const auto listed = ground_programs_of(planner.agent.value_or(agent));
   const bool has_one = std::find(listed.begin(), listed.end(), name) != listed.end();
   return has_one ? std::optional(planner) : std::nullopt;

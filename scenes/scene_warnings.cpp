@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-/// Points are in single precision, and boxes are often drawn round them without a margin.
+/// Tolerance [m]: points are in single precision, and authors often fit boxes to the points without a margin.
 constexpr double kMargin = 0.01;
 
 }  // namespace

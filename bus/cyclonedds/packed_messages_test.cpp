@@ -16,14 +16,14 @@ using Bytes = std::vector<std::uint8_t>;
 using Packed = PackedMessages<int>;
 constexpr std::size_t kHeader = Packed::kHeaderSize, kBetween = Packed::kToAnybody.size();
 
-/// A header of `participant`, and some bytes that no other message has.
+/// A message: the header of `participant`, and `size` bytes of the value `number`, which no other message has.
 Bytes message(std::uint8_t participant, std::uint8_t number, std::size_t size) {
   Bytes bytes(kHeader, participant);
   bytes.insert(bytes.end(), size, number);
   return bytes;
 }
 
-/// Adds a message in parts, which may be cut anywhere except in the header.
+/// Adds a message in parts of random sizes, as DDS passes them; the first part contains the whole header.
 template <class Send>
 void add(Packed& packed, int to, const Bytes& bytes, RandomStream& random, const Send& send) {
   std::vector<iovec> parts;
@@ -42,9 +42,9 @@ TEST(PackedMessages, AllArriveOnceInOrderAndInAsFewDatagramsAsPossible) {
     const std::size_t largest = 300;
     Packed packed(largest);
     std::map<int, std::vector<Bytes>> sent, arrived;
-    std::map<int, std::size_t> room;  // bytes of the datagram that is being filled
-    std::size_t datagrams = 0, least = 0;
-    std::map<int, std::uint8_t> former;
+    std::map<int, std::size_t> room;       // bytes of the datagram that is being filled
+    std::size_t datagrams = 0, least = 0;  // sent; the least possible number
+    std::map<int, std::uint8_t> former;    // participant of the last message to each destination
     const auto send = [&](int to, const Bytes& bytes) {
       ++datagrams;
       if (bytes.size() > largest) {

@@ -1,5 +1,6 @@
-// Interface of the nodes of all programs of a fleet. A node works only in turns that its caller gives it: run_node() in
-// a process of its own, which sleeps between turns; a test, or a process with a whole fleet, calls poll() on each node.
+// Interface of the nodes of all programs of a fleet. A node works only in turns that its caller gives it. In a process
+// of its own, run_node() gives the turns, and sleeps between them. A test, or a process with a whole fleet, calls
+// poll() on each node.
 // Threads: one.
 #pragma once
 
@@ -16,7 +17,7 @@ namespace skein::bus {
 
 /// How a node's part in a run ended.
 enum class NodeEnd {
-  finished,     ///< client: it has answered the last step, and the server has left; server: the run is over
+  finished,     ///< client: it has answered the last step, and the server has left; server: the run has ended
   stopped,      ///< the program was asked to stop
   server_gone,  ///< the server disappeared during the run
   dropped,      ///< the server removed this member and continued without it
@@ -27,8 +28,8 @@ class LockstepNode {
  public:
   virtual ~LockstepNode() = default;
 
-  /// Call it before start(). A client that has found no server after this time ends with NodeEnd::finished. 0: no
-  /// limit.
+  /// Call it before start(). A client that has found no server after this wall time [s] ends with NodeEnd::finished.
+  /// 0: no limit.
   virtual void give_up_after(double /*seconds*/) {}
   /// Starts to look for the other programs. Call it once, before any turn.
   virtual void start() = 0;
@@ -39,12 +40,13 @@ class LockstepNode {
   virtual std::optional<NodeEnd> end() const = 0;
   virtual Inbox& inbox() = 0;
 
-  /// How long the caller may wait before the next turn.
+  /// How long the caller may wait before the next turn, and for how many samples.
   struct Rest {
     std::chrono::milliseconds longest{0};
-    std::size_t rings = 0;  ///< for Inbox::dispatch()
-    bool until_rung =
-        true;  ///< true: the node can do nothing before these rings; false: it waits for an event without a sample
+    std::size_t rings = 0;  ///< number of samples of ringing topics to wait for, as in Inbox::dispatch()
+    /// true: the node can do nothing before these samples have arrived; false: it waits for something else, too, such
+    /// as the end of a time.
+    bool until_rung = true;
   };
   virtual Rest rest() = 0;
 

@@ -20,7 +20,7 @@ double any_number(std::mt19937& random) {
   return mantissa * std::pow(10.0, static_cast<int>(random() % 40) - 20);
 }
 
-TEST(Text, TheShortestNumberReadsBackAsItself) {
+TEST(Text, TheShortestTextOfANumberReadsBackAsTheSameNumber) {
   std::mt19937 random(1);
   for (int i = 0; i < 20000; ++i) {
     const double value = any_number(random);
@@ -31,7 +31,7 @@ TEST(Text, TheShortestNumberReadsBackAsItself) {
   }
 }
 
-TEST(Text, NumbersAreAsPrintfHasThem) {
+TEST(Text, FixedAndSignificantRoundLikePrintf) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
     const double value = any_number(random);
@@ -40,6 +40,7 @@ TEST(Text, NumbersAreAsPrintfHasThem) {
     std::snprintf(fixed_text, sizeof fixed_text, "%.*f", digits, value);
     std::snprintf(significant_text, sizeof significant_text, "%.*g", digits + 1, value);
     ASSERT_EQ(significant(value, digits + 1), significant_text);
+    // printf writes a sign before a zero, as in "-0.0"; fixed() does not.
     ASSERT_EQ(fixed(value, digits), fixed_text + (std::stod(fixed_text) == 0.0 && value < 0.0 ? 1 : 0));
     const std::string at_most = fixed_at_most(value, digits);
     ASSERT_EQ(std::stod(at_most), std::stod(fixed_text));
@@ -56,7 +57,7 @@ TEST(Text, ZeroHasNoSignAndWholeNumbersHaveNoPoint) {
   EXPECT_EQ(number_text(0.1 + 0.2), "0.3");
 }
 
-TEST(Text, OnlyTextsThatAreAWholeNumberAreRead) {
+TEST(Text, ParseNumberRefusesTextsThatAreNotExactlyOneNumber) {
   EXPECT_EQ(parse_number("-1.5e3"), -1500.0);
   for (const char* text : {"", "+1", " 1", "1 ", "0x10", "nan", "inf", "1e999", "1,5", "one"}) {
     EXPECT_FALSE(parse_number(text)) << text;
@@ -76,7 +77,7 @@ TEST(Text, ASplitTextCanBeJoinedAgain) {
   }
 }
 
-TEST(Text, AShellTakesEveryWordAsOne) {
+TEST(Text, ShellWordQuotesWhatAShellWouldSplitOrChange) {
   EXPECT_EQ(shell_word("kios:voxel_m=4,x=+1"), "kios:voxel_m=4,x=+1");
   EXPECT_EQ(shell_word("a b"), "'a b'");
   EXPECT_EQ(shell_word("it's"), "'it'\\''s'");
@@ -84,8 +85,8 @@ TEST(Text, AShellTakesEveryWordAsOne) {
   EXPECT_EQ(shell_word("$(x)"), "'$(x)'");
 }
 
-/// A shell splits the line into the same words, for all characters in the words.
-TEST(Text, WordsOfAShellReadBackAsTheyWere) {
+/// For words of any characters.
+TEST(Text, ShellWordsReadsBackWhatShellLineWrites) {
   std::mt19937 random(5);
   const std::string letters = "ab '\"\\$*?~=;|&<>(){}#!`-/.";
   for (int round = 0; round < 300; ++round) {
@@ -120,7 +121,7 @@ TEST(Text, InvalidUtf8IsShownAsQuestionMarks) {
   }
 }
 
-TEST(Text, LongTextsAreQuotedShortenedWithoutCuttingALetter) {
+TEST(Text, ShortenedCutsALongTextBetweenTwoCharacters) {
   EXPECT_EQ(shortened("orbit"), "orbit");
   EXPECT_EQ(shortened(std::string(100000, 'a')), std::string(80, 'a') + "...");
   EXPECT_EQ(shortened(std::string(79, 'a') + "ä" + std::string(9, 'a')), std::string(79, 'a') + "...");

@@ -12,7 +12,7 @@
 
 namespace skein::sim::small_models {
 
-/// Numbers, with spaces between them.
+/// A text of values, separated by spaces.
 class Words {
  public:
   template <typename T>
@@ -33,7 +33,7 @@ inline std::string obj(const TriangleMesh& mesh) {
   text << "# a mesh\nmtllib none.mtl\no part\nvt 0 0\nvn 0 0 1\n";
   for (const auto& v : mesh.vertices) text << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    text << "usemtl " << (t % 2 == 0 ? "odd" : "even") << "\nf";  // a mesh of Assimp's for each
+    text << "usemtl " << (t % 2 == 0 ? "odd" : "even") << "\nf";  // so Assimp makes a mesh of each triangle
     for (const auto vertex : mesh.triangles[t]) text << ' ' << vertex + 1 << "/1/1";
     text << '\n';
   }
@@ -68,7 +68,7 @@ inline std::string binary_ply(const TriangleMesh& mesh, bool big_endian) {
   return bytes;
 }
 
-/// In centimetres, z up. @param nodes  the nodes of the scene; the geometry has the id `g`.
+/// A COLLADA file in centimetres, with z up. @param nodes  the nodes of its scene as XML; the geometry's id is `g`.
 inline std::string dae(const TriangleMesh& mesh,
                        const std::string& nodes = "<node id=\"n\"><instance_geometry url=\"#g\"/></node>") {
   Words numbers, indices;
@@ -93,7 +93,8 @@ inline std::string dae(const TriangleMesh& mesh,
          "<scene><instance_visual_scene url=\"#s\"/></scene>\n</COLLADA>\n";
 }
 
-/// y up. @param uri  of the data, as `"uri": "..."`; empty: the binary part of a .glb.
+/// The JSON of a glTF file, with y up. @param nodes  the nodes of its scene as JSON.   @param uri  the entry
+///   `"uri": "..."` that names the data of gltf_data(); empty: they are in the binary part of a .glb file.
 inline std::string gltf_text(const TriangleMesh& mesh, const std::string& nodes, const std::string& uri) {
   const std::size_t positions = 12 * mesh.vertices.size(), indices = 6 * mesh.triangles.size();
   return "{\"asset\": {\"version\": \"2.0\", \"generator\": \"written by a test, with a text that may be damaged "

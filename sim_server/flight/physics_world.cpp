@@ -19,16 +19,16 @@ namespace skein::sim {
 namespace {
 
 // Bullet keeps contact points of surfaces up to 2 cm apart, and pushes bodies apart that are nearer than their margins.
-// Small margins keep thin members, as of a crane, nearly as thin as they are.
-constexpr double kMargin = 0.001;
-// Thickness of the disc that a rotor sweeps: the travel in one tick at 10 m/s, so that no sheet of the structure passes
-// through it between two ticks.
-constexpr double kRotorDiscThickness = 0.025;
-// A UAV is tested for contacts if its sphere is nearer than this to an obstacle: far more than the distance at which
-// Bullet keeps contact points, and more than the travel in a tick.
-constexpr double kContactReach = 0.15;
+// A small margin makes thin members, such as those of a crane, only slightly thicker.
+constexpr double kMargin = 0.001;  // [m]
+// Thickness of a rotor's disc: the distance that a UAV flies in one tick at 10 m/s. So up to this speed, a UAV cannot
+// pass through a thin sheet of the structure between two ticks.
+constexpr double kRotorDiscThickness = 0.025;  // [m]
+// The world tests a UAV for contacts if the UAV's bounding sphere is nearer than this to an obstacle. It is far more
+// than the distance at which Bullet keeps contact points, and more than a UAV flies in a tick.
+constexpr double kContactReach = 0.15;  // [m]
 // Triangles in the ground plane count as ground, so that UAVs can land on the floor slab of a building.
-constexpr float kGroundSlab = 0.01F;
+constexpr float kGroundSlab = 0.01F;  // height above or below z = 0 [m]
 constexpr int kSolverIterations = 20;
 // A UAV without thrust that has been this slow for this long falls asleep, and then costs no computing time. Bullet has
 // its own rule for sleep; this one does not depend on a body's neighbours.
@@ -87,7 +87,7 @@ struct UavBody {
   MassFrame frame;
   std::unique_ptr<VehicleShape> shape;
   std::unique_ptr<btRigidBody> body;  ///< its frame is P
-  double radius = 0.0;                ///< of a sphere about the centre of mass that contains the body
+  double radius = 0.0;                ///< of the bounding sphere about the centre of mass [m]
   bool pushed = false;                ///< a wrench acts during the coming tick
   int still_ticks = 0;
   bool out = false;                      ///< removed from the world
@@ -100,8 +100,8 @@ struct UavBody {
         radius(bounding_radius(vehicle) + frame.X_BP.translation().norm()) {
     body = std::make_unique<btRigidBody>(
         btRigidBody::btRigidBodyConstructionInfo(frame.mass_kg, nullptr, &shape->compound(), to_bullet(frame.inertia)));
-    body->setActivationState(DISABLE_DEACTIVATION);  // fall_asleep_if_still() does it
-    body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper has them
+    body->setActivationState(DISABLE_DEACTIVATION);  // fall_asleep_if_still() replaces Bullet's rule
+    body->setFlags(0);                               // no gyroscopic terms: MomentumKeeper computes them
     set_state({.p_WB = X_WB.translation(), .q_WB = Quaterniond(Matrix3d(X_WB.linear()))});
   }
 
@@ -168,7 +168,7 @@ struct PhysicsWorld::Impl {
   BodyId identify(const btCollisionObject& object) const;
   void step();
   std::vector<Contact> read_contacts();
-  void wake_who_was_hit(const std::vector<Contact>& contacts);
+  void wake_hit_uavs(const std::vector<Contact>& contacts);
 
   // User indices of bodies; that of a UAV is its fleet index.
   static constexpr int kGroundIndex = -2, kStructureIndex = -3;
@@ -284,7 +284,7 @@ std::vector<Contact> PhysicsWorld::Impl::read_contacts() {
   return one_for_each_pair(std::move(points));
 }
 
-void PhysicsWorld::Impl::wake_who_was_hit(const std::vector<Contact>& contacts) {
+void PhysicsWorld::Impl::wake_hit_uavs(const std::vector<Contact>& contacts) {
   for (const Contact& contact : contacts) {
     if (contact.other.kind != BodyId::Kind::uav) continue;
     UavBody &a = uavs[contact.uav], &b = uavs[contact.other.uav];
@@ -336,8 +336,8 @@ void PhysicsWorld::apply_wrench(UavIndex uav, const Vector3d& force_W, const Vec
 bool PhysicsWorld::sane(const RigidBodyState& state) const {
   const bool finite =
       state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() && state.w_WB_B.allFinite();
-  // The limit of the velocities ensures that the squares in later computations are finite.
-  constexpr double kFastest = 1e6;
+  // The limit of the velocities ensures that their squares in later computations are finite.
+  constexpr double kFastest = 1e6;  // [m/s], and [rad/s]
   return finite && state.p_WB.norm() <= reach_m_ && state.v_WB.norm() < kFastest && state.w_WB_B.norm() < kFastest;
 }
 
@@ -361,7 +361,7 @@ void PhysicsWorld::tick() {
     }
   }
   contacts_ = impl_->read_contacts();
-  impl_->wake_who_was_hit(contacts_);
+  impl_->wake_hit_uavs(contacts_);
 }
 
 void PhysicsWorld::set_state(UavIndex uav, const RigidBodyState& state) {

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Must be incremented whenever the same inputs may lead to another plan, or the same plan to another flight.
+/// Increment it with each change of the code that may change the plan for the same inputs, or the flight of a plan.
 constexpr int kPlanVersion = 1;
 
 Json numbers(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -54,7 +54,7 @@ void add_numbers(Sha256& hash, std::initializer_list<double> values) {
   for (const double value : values) hash.add(value);
 }
 
-/// Adds what the oracle's key leaves out of a vehicle: its flight properties.
+/// Adds how the vehicle flies: oracle_key() does not cover this, because the oracle's answer does not depend on it.
 void add_vehicle(Sha256& hash, const VehicleConfig& vehicle) {
   const PositionControlConfig& law = vehicle.position_control;
   const AttitudeControlConfig& attitude = vehicle.attitude_control;
@@ -66,8 +66,8 @@ void add_vehicle(Sha256& hash, const VehicleConfig& vehicle) {
                      vehicle.camera.exposure_s, vehicle.camera.trigger_interval_s});
   add_numbers(hash, {law.omega_xy, law.omega_z, law.zeta_xy, law.zeta_z, law.ki_xy, law.ki_z, law.thrust_scale,
                      law.max_tilt_deg, attitude.p_gain, attitude.q_gain, attitude.r_gain});
-  const Vector3d reckoned = attitude.inertia.value_or(Vector3d::Zero());
-  add_numbers(hash, {reckoned.x(), reckoned.y(), reckoned.z()});
+  const Vector3d assumed_inertia = attitude.inertia.value_or(Vector3d::Zero());
+  add_numbers(hash, {assumed_inertia.x(), assumed_inertia.y(), assumed_inertia.z()});
   for (const VehicleLink& link : vehicle.links) {
     add_numbers(hash, {link.mass_kg, link.inertia.x(), link.inertia.y(), link.inertia.z(), link.p_BL.x(), link.p_BL.y(),
                        link.p_BL.z()});
@@ -126,7 +126,7 @@ std::string plan_key(const Scenario& scenario, const Scene& scene, const PlanCon
     add_vehicle(hash, uav.vehicle);
   }
   for (const LinkEffect& effect : scenario.links) {
-    if (!effect.range_m) continue;  // the others delay or lose messages; a plan does not model that
+    if (!effect.range_m) continue;  // links without a range only delay or lose messages, which plans ignore
     hash.add(*effect.range_m).add(effect.from.size());
     for (const std::string& node : effect.from) hash.add(node);
     for (const std::string& node : effect.to) hash.add(node);
@@ -152,7 +152,7 @@ PlanReply ask_plan(const Scenario& scenario, const Scene& scene, const PlanReque
   try {
     if (request.cache) keep_answer(file, key, to_json(*reply.plan));
   } catch (const std::exception& error) {
-    reply.warnings.push_back("the plan is not kept: " + std::string(error.what()));
+    reply.warnings.push_back("the plan cannot be stored for later runs: " + std::string(error.what()));
   }
   return reply;
 }

@@ -1,5 +1,5 @@
-// A planner for tests: climbs by bare velocity setpoints, then follows a path. It examines every scan, key frame and
-// detection, and once a second logs as JSON what it has received so far.
+// A planner for tests: climbs for 5 s with velocity commands only, then follows a path. It examines every scan, key
+// frame and detection, and once a second logs as JSON what it has received so far.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -57,10 +57,11 @@ class ProbePlanner final : public Planner {
  private:
   const Config config_;
   const Node own_node_;
-  long scans_ = 0, late_ = 0, own_frames_ = 0, others_frames_ = 0;
+  long scans_ = 0, own_frames_ = 0, others_frames_ = 0;
+  long late_ = 0;  // number of scans that are not from the last exchange (20 ticks)
   std::size_t points_ = 0;
-  long gaps_ = 0;            // number of points whose numbers arrived before lower ones
-  std::uint32_t named_ = 0;  // number of points known so far; they are numbered from 0
+  long gaps_ = 0;            // number of detected points that arrived although a point with a lower number had not
+  std::uint32_t named_ = 0;  // number of points detected so far without a gap; they are numbered from 0
   std::optional<std::size_t> first_detected_;
 };
 

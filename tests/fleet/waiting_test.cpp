@@ -1,5 +1,5 @@
-// Messages name the program that a fleet waits for, and every wait ends: by an answer, a timeout, a detected end, or
-// Ctrl-C.
+// Messages name the program for which a fleet waits. Every wait ends: when the program answers, after a timeout, when
+// the fleet notices that the program has ended, or with Ctrl-C.
 #include <signal.h>
 
 #include "fleet_fixture.hpp"
@@ -28,7 +28,7 @@ TEST_F(Waiting, AProgramThatNeverJoinsIsNamed) {
   SkeinRun& run = start("run", {scenario_, "--planner", "hover,changi=exec:exec sleep 1000"});
   EXPECT_TRUE(run.wait_for("waiting for changi to join (")) << run.err();
   EXPECT_NE(text_of(run.dir() / "sim_server.log").find("waiting for changi"), std::string::npos)
-      << "the server's log does not name it, which users without a launcher need";
+      << "users without a launcher can read only in the server's log for which program the fleet waits";
   end_by_interrupt(run);
 }
 
@@ -50,7 +50,7 @@ TEST_F(Waiting, AServerThatHangsIsNamed) {
   end_by_interrupt(run);
 }
 
-TEST_F(Waiting, SeveralHungPlannersCostASingleTimeout) {
+TEST_F(Waiting, TwoHungPlannersDelayTheRunByOneTimeout) {
   SkeinRun& run = start("run", {scenario_, "--planner", "exec:" + helper_program("minimal_client") + " hang",
                                 "--duration", "20", "--agent-timeout", "1"});
   EXPECT_EQ(run.exit_code(), 3) << run.err();
@@ -61,7 +61,8 @@ TEST_F(Waiting, SeveralHungPlannersCostASingleTimeout) {
       << lost[0]["reason"];
 }
 
-/// A fleet whose agent of changi is started by a tool, which may outlive its program.
+/// A fleet with `--debug changi`: the test starts the agent of changi under a tool, as a user starts it under gdb. The
+/// tool may run longer than the agent.
 class Debugged : public Waiting {
  protected:
   void start_fleet(const std::string& planner = "hover") {
@@ -88,13 +89,14 @@ class Debugged : public Waiting {
     const Json result = run_->result();
     ASSERT_EQ(result["lost_members"].size(), 1u) << result["lost_members"];
     EXPECT_EQ(result["lost_members"][0]["member"], "changi");
-    EXPECT_EQ(result["warnings"].dump().find("waited for"), std::string::npos) << "a step was left unfinished";
+    EXPECT_EQ(result["warnings"].dump().find("waited for"), std::string::npos)
+        << "the server ended while it still waited for an answer";
   }
 
   SkeinRun* run_ = nullptr;
 };
 
-TEST_F(Debugged, AProgramThatEndsIsLostAlthoughItsToolStillRuns) {
+TEST_F(Debugged, AnAgentThatDiesIsLostAlthoughItsToolStillRuns) {
   start_fleet();
   const std::string tool = write("tool.sh", "\"$@\" & wait\nexec sleep 1000\n");
   ChildProcess& process = start_tool("/bin/sh " + tool);
@@ -104,7 +106,7 @@ TEST_F(Debugged, AProgramThatEndsIsLostAlthoughItsToolStillRuns) {
   EXPECT_FALSE(process.ended()) << "the tool belongs to the user, so it must not be ended";
 }
 
-TEST_F(Debugged, ACommandThatEndsIsLostToo) {
+TEST_F(Debugged, AnExecCommandThatDiesIsLost) {
   start_fleet("hover,changi=exec:exec " + helper_program("minimal_client"));
   start_tool("");
   ASSERT_TRUE(run_->wait_until_flying()) << run_->err();
@@ -112,7 +114,7 @@ TEST_F(Debugged, ACommandThatEndsIsLostToo) {
   expect_fleet_goes_on();
 }
 
-TEST_F(Debugged, LeavingGdbDoesNotStallTheFleet) {
+TEST_F(Debugged, TheFleetFliesOnWhenTheUserLeavesGdb) {
   if (!std::filesystem::exists("/usr/bin/gdb")) GTEST_SKIP() << "no gdb here";
   start_fleet();
   ChildProcess& gdb = start_tool("gdb -nx -batch -ex run --args");
@@ -123,15 +125,15 @@ TEST_F(Debugged, LeavingGdbDoesNotStallTheFleet) {
   expect_fleet_goes_on();
 }
 
-TEST_F(Debugged, TheEndOfTheRunDoesNotCountAsALoss) {
+TEST_F(Debugged, AnAgentThatEndsWithTheRunIsNotLost) {
   start_fleet_that_ends();
   start_tool("");
   EXPECT_EQ(run_->exit_code(), 0) << run_->err();
   EXPECT_EQ(run_->err().find("debugged program"), std::string::npos) << run_->err();
 }
 
-// The launcher waits for its report, although the rest of the fleet has ended long before.
-TEST_F(Debugged, AProgramThatLeavesLateIsWaitedFor) {
+// gdb stops the agent for 2 s before it writes its report; by then all other programs of the fleet have ended.
+TEST_F(Debugged, TheLauncherWaitsForTheReportOfAnAgentThatEndsLate) {
   if (!std::filesystem::exists("/usr/bin/gdb")) GTEST_SKIP() << "no gdb here";
   start_fleet_that_ends();
   ChildProcess& gdb =

@@ -11,16 +11,18 @@ namespace {
 constexpr std::int64_t kShowing = -3;  ///< id of the goals of showing; numeric
 constexpr double kLowM = 1.0;          ///< a UAV that has left its start, and is higher above it, has risen; chosen
 constexpr double kColumnTopM = 6.0;    ///< height of the space above a start that is shown; chosen
-/// Places to hover, from which a LiDAR sees the column well unless a roof is in between. Chosen.
+/// Offsets of the places to hover from the photographer: horizontal distance, and heights to try in this order. From
+/// there a LiDAR sees the column well, unless a roof is in between. Chosen.
 constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 2.5, 8.0, 12.0};
-constexpr int kSides = 8;         ///< directions of these places; chosen
+constexpr int kSides = 8;         ///< number of directions in which these places lie; chosen
 constexpr double kShowMps = 4.0;  ///< speed on the way there; chosen
 /// Pause after an attempt. After the first kManyAttempts, it doubles each time, kMostDoublings times at most. Chosen.
 constexpr double kAgainS = 20.0;
 constexpr int kManyAttempts = 4, kMostDoublings = 8;  ///< chosen
-constexpr double kToldS = 60.0;         ///< a UAV that is low for longer may have received no map of its column; chosen
-constexpr double kAsideOfStartM = 0.5;  ///< a UAV that is farther away is seen elsewhere than at its start; chosen
-constexpr double kNearM = 14.0;         ///< from here, a UAV at its place is in sight; chosen
+/// A photographer that has not risen after this time may not have received the map of its column. Chosen.
+constexpr double kToldS = 60.0;
+constexpr double kAsideOfStartM = 0.5;  ///< a UAV farther from its start has moved aside; chosen
+constexpr double kNearM = 14.0;         ///< an explorer this near to a photographer's place would see it there; chosen
 /// Before an explorer takes over a photographer, it waits this time for each explorer that starts nearer to it.
 /// Measured: in `towers`, `cranes` and `hangar`, photographers rise within 55 s if no UAV is lost.
 constexpr double kTakeOverS = 60.0;
@@ -80,7 +82,7 @@ bool Showing::column_known(std::size_t uav, const PlannerInput& in) const {
 std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space) {
   if (!since_) since_ = in.tick;
   const Vector3d here_W = in.tracking.setpoint.p_WB;
-  // A UAV that is not to be seen from beside its place rose while this one was elsewhere.
+  // If this UAV hovers beside the mate's place and does not see the mate, the mate has risen in the meantime.
   const bool looked = std::exchange(was_known_, false) && (place_W(mate_, in) - here_W).norm() < kNearM;
   const bool gone = looked && !is_visible(mate_, in);
   std::erase_if(charges_, [&](const Charge& it) { return has_risen(it.uav, in) || (gone && it.uav == mate_); });

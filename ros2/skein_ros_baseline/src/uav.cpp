@@ -1,10 +1,11 @@
 // CARIC's public baseline as an ordinary ROS 2 node: one for each UAV, under the UAV's namespace.
 //
-// All UAVs report where they start; the station (gcs.cpp) sends the list; all compute the same teams. The explorer
-// of a team flies to the next region and surveys the first layer of each photographer's section, cell by cell along the
-// structure. A photographer inspects its section once that is surveyed: in every third layer, it looks from each cell
-// at the faces of the structure. The last section is the explorer's own. When all are done, or `patience_s` after the
-// explorer is, the team flies to the next region, and at last home.
+// Each UAV reports where it starts, the station (gcs.cpp) sends the list of all starts, and from this list each UAV
+// computes the same teams. The explorer of a team flies to the next region and surveys the first layer of each
+// photographer's section, cell by cell along the structure. A photographer begins to inspect its section when the
+// explorer has surveyed it: in every third layer, it looks at the structure's faces from each cell beside them. The
+// explorer inspects the last section itself. When all UAVs of the team have finished, or `patience_s` after the
+// explorer has, the team flies to the next region, and after the last region home.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -21,7 +22,7 @@
 
 namespace baseline {
 
-/// So near a box, UAVs enter only cells that a LiDAR's beam has crossed.
+/// Within this distance [m] of a box, UAVs enter only cells that a LiDAR beam has crossed.
 constexpr double kDoubtM = 2.25;
 
 enum class Stage { report, climb, go, survey, wait, inspect, gather, home };
@@ -49,7 +50,7 @@ class Uav : public rclcpp::Node {
   void follow_leader();
   /// Continues the inspection of a layer. @returns false once it has no cell left that the UAV can reach
   bool work_at(int layer);
-  /// The same with every `layer_step`th layer of a section, from layer_ on.
+  /// Continues the inspection of a section: from layer_ on, of every `layer_step`th layer. @returns false at its end
   bool inspect(int section);
   bool go_to(const Grid::Test& is_goal);
   bool go_to_rim(int layer, bool only_new);
@@ -57,7 +58,7 @@ class Uav : public rclcpp::Node {
   void enter(Stage stage);
   bool must_go_home() const;
 
-  /// Whether another UAV is there, or has claimed the cell.
+  /// Whether another UAV is in the cell, or has claimed it.
   bool is_taken(const Cell& cell, const std::vector<Cell>& claimed) const;
   bool leads() const { return team_.members.front() == radio_.name(); }
   const Region& region() const { return team_.regions[work_.region]; }
@@ -70,15 +71,16 @@ class Uav : public rclcpp::Node {
   const double patience_s_, return_s_;
   bool is_explorer_ = false;
   std::vector<Region> boxes_;
-  std::vector<Vector> others_W_;  ///< in line of sight
+  std::vector<Vector> others_W_;  ///< positions of the UAVs in line of sight
   Stage stage_ = Stage::report;
   Team team_;
   Cell home_;
   Work work_;
-  int section_ = 0;             ///< of the team's region: the leader's is the last one
-  int layer_ = 0, misses_ = 0;  ///< of the inspection; successive searches that found no way
+  int section_ = 0;             ///< the section that this UAV inspects: the last one if it leads
+  int layer_ = 0;               ///< the layer that it inspects
+  int misses_ = 0;              ///< successive searches that found no path
   double stage_since_s_ = 0.0, starts_at_s_ = 0.0;
-  double decides_at_s_ = 0.0;  ///< not earlier, so as not to repeat a failed search at once
+  double decides_at_s_ = 0.0;  ///< next decision; after a failed search half a second later
   std::vector<rclcpp::SubscriptionBase::SharedPtr> heard_;
   std::vector<rclcpp::TimerBase::SharedPtr> timers_;
 };
@@ -179,13 +181,13 @@ void Uav::report() {
   const double now_s = now().seconds();
   if (stage_since_s_ == 0.0) stage_since_s_ = now_s;
   if (now_s > stage_since_s_ + 1.0)
-    radio_.say_start({is_explorer_, vehicle_.p_WB()});  // by then an explorer has a scan
+    radio_.say_start({is_explorer_, vehicle_.p_WB()});  // an explorer has received a scan by then
   const auto fleet = radio_.fleet();
   if (fleet && !boxes_.empty()) join_team(*fleet);
 }
 
 void Uav::join_team(const std::map<std::string, Start>& fleet) {
-  // Explorers before photographers, then by name: the order of takeoff and of right of way.
+  // UAVs take off in this order, and a UAV gives way to those before it: explorers first, each role by name.
   std::map<std::string, int> ranks;
   for (const bool explorers : {true, false}) {
     for (const auto& [name, start] : fleet) {
