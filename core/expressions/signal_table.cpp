@@ -71,8 +71,9 @@ std::vector<SignalInfo> make_table() {
              "messages with capture reports that a link with a fault delays, counted when the UAV sends the message"),
       number(
           "custody_differences", {}, 0, kPlainNumber, kAfterwards,
-          "number of captures that the station has received but by the rules of custody should not have yet, or should "
-          "have received but has not. The rules derive the deliveries from the server's record and the faults"),
+          "number of captures about which the station and the rules of custody disagree: the station has received the "
+          "capture, but by the rules it should not have yet, or the other way round. The rules derive the deliveries "
+          "from the server's record and the faults"),
       number("score", {}, 0, kPlainNumber, kAfterwards,
              "the score of the captures that the station has received, as the station counts it"),
       number("delivered_score", {}, 0, kPlainNumber, kAfterwards,
