@@ -13,7 +13,7 @@
 namespace skein::router {
 namespace {
 
-/// A message from "a", node 1, to the station and to "b".
+/// The radio routes of two UAVs, "a" (node 1) and "b" (node 2); "a" sends /talk to all nodes.
 std::vector<RadioRoute> routes() {
   Scenario scenario;
   scenario.fleet.resize(2);
@@ -23,7 +23,7 @@ std::vector<RadioRoute> routes() {
   return radio_routes(scenario);
 }
 
-/// Holds each message back for some steps.
+/// Delays message n by n steps.
 class SlowLinks final : public LinkModel {
  public:
   LinkFate fate(std::uint64_t, const RadioRoute&, Node, const SentMessage& message) override {
@@ -49,7 +49,7 @@ class CountStoreTest : public testing::Test {
   const std::vector<RadioRoute> routes_ = routes();
 };
 
-TEST_F(CountStoreTest, ANewFileHasCountedNothing) {
+TEST_F(CountStoreTest, ANewFileHasNoCounts) {
   const CountStore store(file_, 3);
   EXPECT_EQ(store.earlier_counts(), LinkMatrix<LinkCounts>(3));
 }
@@ -59,7 +59,7 @@ TEST_F(CountStoreTest, MessagesUnderWayWhenTheRouterDiesCountAsLost) {
   {
     CountStore store(file_, 3);
     store.save(gate, gate.gate(0, linked_, {message(0)}));
-    store.save(gate, gate.gate(1, linked_, {message(1), message(2)}));  // they are under way for one and two more steps
+    store.save(gate, gate.gate(1, linked_, {message(1), message(2)}));  // they arrive one and two steps later
     store.save(gate, gate.gate(2, linked_, {}));  // the router delivers the first of them, and dies
   }
   const LinkCounts to_b = CountStore(file_, 3).earlier_counts().at(Node{1}, Node{2});
@@ -73,7 +73,7 @@ TEST_F(CountStoreTest, MessagesUnderWayWhenTheRouterDiesCountAsLost) {
   EXPECT_EQ(gate.counts().at(Node{1}, Node{2}), to_b);
 }
 
-TEST_F(CountStoreTest, TheCountsOfAnotherRunAreNotTakenUp) {
+TEST_F(CountStoreTest, ARouterIgnoresTheCountsOfAnotherRun) {
   LinkGate gate(routes_, 3, std::make_unique<SlowLinks>());
   {
     CountStore store(file_, 3, RunId{7});
@@ -85,8 +85,8 @@ TEST_F(CountStoreTest, TheCountsOfAnotherRunAreNotTakenUp) {
       << "the file belongs to the other run now";
 }
 
-TEST_F(CountStoreTest, AFullDiskIsAnErrorBeforeTheFirstCount) {
-  const pid_t child = ::fork();  // the limit must not touch this process
+TEST_F(CountStoreTest, OpeningItsFileFailsIfTheDiskIsFull) {
+  const pid_t child = ::fork();  // so that the limit of file sizes does not apply to this process
   ASSERT_GE(child, 0);
   if (child == 0) {
     ::signal(SIGXFSZ, SIG_IGN);
@@ -105,7 +105,7 @@ TEST_F(CountStoreTest, AFullDiskIsAnErrorBeforeTheFirstCount) {
   EXPECT_EQ(WEXITSTATUS(status), 42);
 }
 
-TEST_F(CountStoreTest, ItsFileHasNoHolesThatAFullDiskCouldNotFill) {
+TEST_F(CountStoreTest, ItsNewFileIsFullyAllocatedSoThatLaterWritesDoNotNeedFreeSpace) {
   const CountStore store(file_, 64);
   struct stat status {};
   ASSERT_EQ(::stat(file_.c_str(), &status), 0);

@@ -95,7 +95,7 @@ TEST(FlightPicture, ManyPointsAreThinnedAndNoUndetectedPointHidesADetectedOne) {
   const FlightPicture picture = random_picture(random, 60000);
   const PictureView view({&picture});
   const std::string svg = picture_svg(picture, view, "");
-  const std::regex dot("h0");
+  const std::regex dot("h0");  // a dot is a line of length 0
   EXPECT_LE(std::distance(std::sregex_iterator(svg.begin(), svg.end(), dot), std::sregex_iterator()), 4000);
 
   FlightPicture two;

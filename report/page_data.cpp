@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kEachS = 0.5;                ///< time between two positions of a track
 constexpr std::size_t kMostPoses = 120'000;   ///< in all tracks together; beyond it, tracks are thinned further
-constexpr std::size_t kMostChanges = 6000;    ///< in a curve
-constexpr std::size_t kMostWaiting = 40'000;  ///< changes of the numbers of undelivered captures, of all UAVs together
+constexpr std::size_t kMostChanges = 6000;    ///< changes of the score in a curve; beyond it, curves are thinned
+constexpr std::size_t kMostWaiting = 40'000;  ///< changes of numbers of undelivered captures, all UAVs together
 
 long centimetres(double metres) { return std::lround(100.0 * metres); }
 double rounded(double value, double by) { return std::round(value / by) * by; }
@@ -121,7 +121,7 @@ Json waiting_json(const std::vector<Waiting>& changes, std::size_t most) {
 /// `l`: the states of all links as digits of LinkState, valid from the times `t` [ms] on. Null for a large fleet, where
 /// they would be most of the page.
 Json links_json(const results::RunRecord& run) {
-  constexpr std::size_t kMostDigits = 600'000;
+  constexpr std::size_t kMostDigits = 600'000;  // about as many bytes of the page
   Json t = Json::array(), l = Json::array();
   const auto links = recorded_links(run);
   const std::size_t nodes = run.uavs.size() + 1;
@@ -139,7 +139,7 @@ Json camera_json(const std::optional<results::RunCamera>& camera) {
   return {{"hfov", camera->hfov_deg}, {"vfov", camera->vfov_deg}, {"range", camera->range_m}};
 }
 
-/// Number of `times_s` in each second of the run.
+/// For each second of the run, the number of entries of `times_s` within it.
 Json each_second(const std::vector<double>& times_s, double end_s) {
   std::vector<int> counts(static_cast<std::size_t>(std::min(std::max(end_s, 0.0), 1e5)) + 1, 0);
   for (const double time_s : times_s) {

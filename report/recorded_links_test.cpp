@@ -21,7 +21,8 @@ results::RunRecord two_uavs() {
   return run;
 }
 
-void all_down(results::RunRecord& run, double time_s, const std::string& node, bool up = false) {
+/// Adds the events that all links from and to `node` close, or open if `up`.
+void add_link_events(results::RunRecord& run, double time_s, const std::string& node, bool up = false) {
   for (const std::string other : {"gcs", "a", "b"}) {
     if (other == node) continue;
     for (const auto& [from, to] : {std::pair(node, other), std::pair(other, node)}) {
@@ -30,7 +31,8 @@ void all_down(results::RunRecord& run, double time_s, const std::string& node, b
   }
 }
 
-/// The states of all links at this time, as the lines for the page write them.
+/// The states of all links at this time: rows by sender and columns by receiver, both in the order gcs, a, b;
+/// 0: blocked, 1: linked, 2: cut, 3: dead.
 std::string digits(const results::RunRecord& run, double time_s) {
   std::string found;
   for (const auto& [from_s, links] : recorded_links(run)) {
@@ -40,9 +42,9 @@ std::string digits(const results::RunRecord& run, double time_s) {
   return found;
 }
 
-TEST(RecordedLinks, AreNoneWhereNothingIsRecorded) { EXPECT_TRUE(recorded_links({}).empty()); }
+TEST(RecordedLinks, AreEmptyWithoutEventsAboutLinks) { EXPECT_TRUE(recorded_links({}).empty()); }
 
-TEST(RecordedLinks, AreBlockedWithoutAFault) {
+TEST(RecordedLinks, AreBlockedIfTheyCloseWithoutAFault) {
   results::RunRecord run = two_uavs();
   run.events.push_back({0, run_tables::kLinkDown, "a", "gcs", 5.0});
   EXPECT_EQ(digits(run, 4.0), "011101110");
@@ -50,11 +52,11 @@ TEST(RecordedLinks, AreBlockedWithoutAFault) {
   EXPECT_FALSE(has_cuts(run));
 }
 
-TEST(RecordedLinks, AreCutWhileAFaultSilencesANode) {
+TEST(RecordedLinks, OfANodeInABlackoutAreCut) {
   results::RunRecord run = two_uavs();
   run.faults = {{"blackout", "b", 10.0, 20.0}};
-  all_down(run, 10.0, "b");
-  all_down(run, 25.0, "b", true);
+  add_link_events(run, 10.0, "b");
+  add_link_events(run, 25.0, "b", true);
   EXPECT_TRUE(has_cuts(run));
   EXPECT_EQ(digits(run, 9.9), "011101110");
   EXPECT_EQ(digits(run, 10.0), "012102220");
@@ -65,7 +67,7 @@ TEST(RecordedLinks, AreCutWhileAFaultSilencesANode) {
 TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
   results::RunRecord run = two_uavs();
   run.faults = {{"partition", "gcs a | b", 10.0, 20.0}, {"kill", "a", 30.0, 40.0}};
-  all_down(run, 10.0, "b");
+  add_link_events(run, 10.0, "b");
   EXPECT_EQ(digits(run, 12.0), "012102220");
   run.faults[0].target = "a | b";
   run.events.push_back({0, run_tables::kLinkDown, "a", "gcs", 10.0});
@@ -73,17 +75,17 @@ TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
   EXPECT_EQ(digits(run, 35.0), "010000000") << "a killed program cuts no link";
 }
 
-TEST(RecordedLinks, OfAStationThatIsOutAreCut) {
+TEST(RecordedLinks, OfTheStationAreCutDuringAStationOutage) {
   results::RunRecord run = two_uavs();
   run.faults = {{"station_outage", "gcs", 10.0, 20.0}};
-  all_down(run, 10.0, "gcs");
+  add_link_events(run, 10.0, "gcs");
   EXPECT_EQ(digits(run, 12.0), "022201210");
 }
 
 TEST(RecordedLinks, OfAUavThatCollidedAreDead) {
   results::RunRecord run = two_uavs();
   run.collisions = {{10.0, "a", "structure", {}}};
-  all_down(run, 10.05, "a");
+  add_link_events(run, 10.05, "a");
   EXPECT_EQ(digits(run, 9.0), "011101110");
   EXPECT_EQ(digits(run, 12.0), "031303130");
 }

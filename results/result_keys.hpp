@@ -7,9 +7,9 @@
 
 namespace skein::results {
 
-/// The first mistake in a result that somebody edited, or that is none: its status is missing, or a value that readers
-/// use is of another kind than docs/result.schema.json says. Any other key may be missing, since earlier versions wrote
-/// fewer, and null means that nobody knows the value.
+/// Finds the first mistake in the content of a result.json, for example after a user has edited it. Mistakes are a
+/// missing status, and a value that readers use of another kind than docs/result.schema.json says. Other keys may be
+/// missing, because earlier versions wrote fewer, and a value may be null, which means unknown.
 /// @returns the key and what is right: `uavs[0].distance_m: must be a number, not "12"`; empty: no mistake.
 std::string wrong_key(const Json& result);
 

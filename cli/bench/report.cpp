@@ -51,7 +51,7 @@ bool in_one_process(const Json& result) {
   return value_or(result, "processes", Json::object()).contains(programs::kOneProcess);
 }
 
-/// "one process", or the DDS vendor of all, or "mixed".
+/// How the programs communicated: "one process", the name of the only DDS vendor, or "mixed" if there were several.
 std::string medium_of(const Json& result) {
   if (in_one_process(result)) return kInOneProcess;
   std::set<std::string> vendors;
@@ -67,8 +67,9 @@ double planner_cpu_s(const Json& result) {
   return cpu_s;
 }
 
-/// CPU time of all processes [s]. The launcher begins to measure it when it hears of the first step. A fleet that flies
-/// for some milliseconds has done much of its work by then; the parts that programs measured then add up to more.
+/// CPU time of all processes during the flight [s]. The launcher begins to measure it when the server reports the first
+/// step. By then, a fleet that flies for only some milliseconds has done much of its work. So use the sum of the times
+/// that server and agents have measured themselves if it is larger.
 double all_cpu_s(const Json& result) {
   const double counted_s = number_in(value_or(result, "timing", Json::object()), "cpu_s") + planner_cpu_s(result);
   return std::max(counted_s, fleet_cpu_s(result));
@@ -81,7 +82,8 @@ double simulation_cpu_s(const Json& result) {
          number_in(timing, "links_s");
 }
 
-/// The result whose real-time factor is nearest to the median. Breakdowns are taken from one run, so that they add up.
+/// The result whose real-time factor is nearest to the median. All parts of a breakdown come from this one run, because
+/// medians of the parts would not add up to the whole.
 const Json& typical(const std::vector<Json>& results) {
   std::vector<double> factors;
   for (const Json& result : results) factors.push_back(real_time_factor(result));

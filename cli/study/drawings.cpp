@@ -21,7 +21,7 @@ Axis axis_with_zero(const std::vector<double>& values) {
   return nice_axis(low, high, 5);
 }
 
-/// Draws one kind of figure after the other.
+/// Draws the figures of a study: one function for each FigureKind.
 class StudyDrawing {
  public:
   StudyDrawing(const Study& study, const std::vector<std::string>& titles)
@@ -143,7 +143,7 @@ class StudyDrawing {
   Axis score_axis_;
 };
 
-/// Axes of differences: in single scenes; of totals.
+/// Axes for the differences of scores: the first for the figures of single scenes, the second for that of totals.
 std::pair<Axis, Axis> difference_axes(const std::vector<PlannerPair>& pairs) {
   std::vector<double> scenes, totals;
   for (const PlannerPair& pair : pairs) {

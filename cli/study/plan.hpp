@@ -20,11 +20,11 @@ struct StudyFlight {
   double mission_s = 0.0;                      ///< longest duration of the mission
   std::optional<std::filesystem::path> agent;  ///< agent program; nullopt: the user named none
   bool one_process = false;                    ///< false: as processes over DDS
-  /// Everything on which its result depends, except the seed (made_under.hpp). All flights of a planner in a scene
-  /// share it, because it takes a kilobyte and a study may have 100 000 flights.
+  /// Everything on which its result depends, except the seed (made_under.hpp). It takes a kilobyte, and a study may
+  /// have 100 000 flights, so all flights of a planner in a scene share one object.
   std::shared_ptr<const Json> made_under;
 
-  /// Everything on which its result depends. If a flight with an equal command() has a result, it is not flown again.
+  /// made_under and the seed. A continued study does not repeat a flight that has a result and an equal command().
   Json command() const;
 };
 
@@ -45,15 +45,15 @@ struct StudyPlan {
   std::filesystem::path out;         ///< absolute
   std::vector<StudyFlight> flights;  ///< by seed, scenario, planner: if interrupted, all have flown about equally often
   int jobs = 1;                      ///< flights at once
-  std::string medium;                ///< medium_of() the fleets, for messages
+  std::string medium;                ///< how the fleets communicate, for messages: medium_of()
   Json settings;                     ///< everything on which the results of the study depend
   std::string command_line;          ///< repeats the study; without options such as --jobs
 };
 
-/// The scenarios of a contest, in its order. @param assets  whether CARIC's data are there, which two of them need
+/// The scenarios of a contest, in its order. @param assets  whether to include the two that need CARIC's data
 std::vector<std::string> contest_scenarios(bool assets);
 
-/// Whether the programs themselves check the plan (--check), which takes a while.
+/// Whether plan_study() starts the programs with --check to check planners and scenarios, which takes seconds.
 enum class AskPrograms { no, yes };
 
 /// Reads all files that the options name, and lets the programs check every planner in every scenario (of scenes that

@@ -134,7 +134,7 @@ bool SweepController::fly() {
     // quarantined or noted as sick. These tries say nothing about the units.
     if (nodes_to_avoid() != before) folder_.write_tries({});
   }
-  folder_.clear_air();
+  folder_.remove_unfinished();
   return true;
 }
 

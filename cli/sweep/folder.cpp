@@ -82,9 +82,8 @@ SweepFlight sweep_flight_of(const Json& json, const fs::path& file) {
   SweepFlight flight{count_in(json, "index"), text_in(json, "dir"), struct_of<RunOptions>(run),
                      value_or(json, "made_under", nullptr)};
   if (flight.dir.empty() || run.empty()) {
-    throw InputError(
-        file.string() + ": damaged: " + json.dump() +
-        " is not a flight; delete this file, and the same command goes on with the flights that are there");
+    throw InputError(file.string() + ": damaged: " + json.dump() +
+                     " is not a flight; delete this file and repeat the command: it keeps the flights that exist");
   }
   return flight;
 }
@@ -122,7 +121,7 @@ std::optional<SweepSettings> SweepFolder::settings() const {
 
 std::string SweepFolder::why_no_settings() const {
   if (value_or(read_json(dir_ / kSettings), "format", nullptr).is_null()) {
-    return dir_.string() + " holds no sweep, as a study has that was flown with --executor";
+    return dir_.string() + " holds no sweep: its study was not flown with --executor";
   }
   return dir_.string() +
          " holds a sweep of another version of Skein: show or continue it with that version; or repeat the command of "
@@ -132,7 +131,7 @@ std::string SweepFolder::why_no_settings() const {
 void SweepFolder::begin(const SweepSettings& settings, bool nodes_stay,
                         const std::function<SweepUnit(std::size_t number)>& unit) const {
   step();
-  fs::remove(dir_ / kSettings);  // without it, programs of the former sweep end with their present flight
+  fs::remove(dir_ / kSettings);  // programs of the former sweep miss it after their present flight, and end
   for (const char* folder : {"units", "done", "checks", "log", "lists"}) remove(dir_ / folder);
   if (!nodes_stay) {
     for (const char* folder : {"nodes", "quarantine"}) remove(dir_ / folder);
@@ -180,7 +179,7 @@ SweepUnit SweepFolder::unit(std::size_t number) const {
 std::set<std::size_t> SweepFolder::done(const std::string& token) const { return numbers_in(dir_ / "done" / token); }
 
 fs::file_time_type SweepFolder::done_changed(const std::string& token) const {
-  std::error_code none;  // no unit is over yet
+  std::error_code none;  // ignored: as long as no unit is over, there is no such folder
   return fs::last_write_time(dir_ / "done" / token, none);
 }
 
@@ -293,7 +292,7 @@ void SweepFolder::forget_check(const std::string& token, std::size_t index) cons
   fs::remove(file_of(fs::path("checks") / token, numbered(index)));
 }
 
-fs::path SweepFolder::place_in_the_air(const std::string& node) const {
+fs::path SweepFolder::make_unfinished_folder(const std::string& node) const {
   // Process ids repeat between machines, and containers may share a node's name.
   std::random_device chance;
   const std::string unique = fmt::format("{}-{}-{:08x}{:08x}", file_name(node), ::getpid(), chance(), chance());
@@ -304,12 +303,12 @@ fs::path SweepFolder::place_in_the_air(const std::string& node) const {
   return place;
 }
 
-void SweepFolder::write_in_the_air(const fs::path& file, std::string_view text) const {
+void SweepFolder::write_unfinished(const fs::path& file, std::string_view text) const {
   write_file_atomically(file, text, Readers::all, flush_);
 }
 
-bool SweepFolder::land(const fs::path& flown, const fs::path& dir,
-                       const std::function<bool(const fs::path&)>& stays) const {
+bool SweepFolder::move_to_results(const fs::path& flown, const fs::path& dir,
+                                  const std::function<bool(const fs::path&)>& stays) const {
   fs::create_directories(dir.parent_path());
   for (;;) {
     step();
@@ -317,13 +316,13 @@ bool SweepFolder::land(const fs::path& flown, const fs::path& dir,
     fs::rename(flown, dir, error);
     if (!error) return true;
     const bool taken = error == std::errc::directory_not_empty || error == std::errc::file_exists;
-    if (!taken) throw fs::filesystem_error("cannot put a flight in its place", flown, dir, error);
+    if (!taken) throw fs::filesystem_error("cannot move a finished flight to its folder", flown, dir, error);
     if (stays(dir)) {
       step();
       remove(flown);
       return false;
     }
-    // Since stays(dir) above, another program may have put a good folder there: then that one goes back.
+    // After stays(dir) above, another program may have moved a good folder there: then move that folder back.
     const fs::path aside = set_aside(dir);
     if (!aside.empty() && stays(aside)) fs::rename(aside, dir, error);
   }
@@ -337,7 +336,7 @@ fs::path SweepFolder::set_aside(const fs::path& dir) const {
   fs::rename(dir, aside, error);
   if (!error) return aside;
   if (error == std::errc::no_such_file_or_directory) return {};  // another program was faster
-  throw fs::filesystem_error("cannot set a flight aside", dir, aside, error);
+  throw fs::filesystem_error("cannot move a flight to aside/", dir, aside, error);
 }
 
 void SweepFolder::remove(const fs::path& dir) {
@@ -345,7 +344,7 @@ void SweepFolder::remove(const fs::path& dir) {
   fs::remove_all(dir, ignored);
 }
 
-void SweepFolder::clear_air() const {
+void SweepFolder::remove_unfinished() const {
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(dir_ / "air", none)) remove(entry.path());
 }

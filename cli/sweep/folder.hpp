@@ -87,7 +87,7 @@ class SweepFolder {
 
   /// nullopt: there is no sweep, or sweep.json has another format. @throws InputError when it is damaged.
   std::optional<SweepSettings> settings() const;
-  /// Why settings() returned nullopt, for people.
+  /// The message for the user that says why settings() returned nullopt.
   std::string why_no_settings() const;
   /// Begins a sweep, and deletes the files of an earlier one. The results folders of its flights stay.
   /// @param nodes_stay  keep nodes/ and quarantine/, since the reference flight is the same. @param unit  gives a unit
@@ -140,19 +140,20 @@ class SweepFolder {
   void write_tries(const std::map<std::size_t, Tries>& tries) const;
 
   /// Creates a folder in air/ for a flight of this program, with a unique name.
-  std::filesystem::path place_in_the_air(const std::string& node) const;
+  std::filesystem::path make_unfinished_folder(const std::string& node) const;
   /// Writes a file of a flight in air/.
-  void write_in_the_air(const std::filesystem::path& file, std::string_view text) const;
-  /// Moves a flown folder to `dir`. @param stays  whether a folder that is already there is good and stays.
+  void write_unfinished(const std::filesystem::path& file, std::string_view text) const;
+  /// Moves the folder of a finished flight from air/ to `dir`. @param stays  whether a folder that is already there is
+  ///   good and stays.
   /// @returns false if that folder stays; then `flown` is deleted. @throws std::filesystem::filesystem_error
-  bool land(const std::filesystem::path& flown, const std::filesystem::path& dir,
-            const std::function<bool(const std::filesystem::path&)>& stays) const;
+  bool move_to_results(const std::filesystem::path& flown, const std::filesystem::path& dir,
+                       const std::function<bool(const std::filesystem::path&)>& stays) const;
   /// Moves a flight's folder into aside/. @returns its new path; empty: there was no such folder.
   std::filesystem::path set_aside(const std::filesystem::path& dir) const;
   /// Deletes a folder with its contents, as far as possible: other programs may still write there. Never throws.
   static void remove(const std::filesystem::path& dir);
   /// Deletes all folders in air/, which killed programs have left there.
-  void clear_air() const;
+  void remove_unfinished() const;
 
   /// For tests: `step` is called before each operation whose effect other programs can see.
   void on_step(std::function<void()> step) { step_ = std::move(step); }

@@ -87,9 +87,9 @@ class UnitRun {
   SweepRow fly(const SweepFlight& flight) const {
     if (auto row = row_in_place(folder_, flight, node_, &say_)) return std::move(*row);
     check_still_wanted();
-    const fs::path air = folder_.place_in_the_air(node_.name);
+    const fs::path air = folder_.make_unfinished_folder(node_.name);
     try {
-      return land(flight, air, node_.fly(flight, air));
+      return finish(flight, air, node_.fly(flight, air));
     } catch (const std::exception&) {  // frees the space, since the disk may be full
       SweepFolder::remove(air);
       throw;
@@ -100,7 +100,7 @@ class UnitRun {
   }
 
   /// Writes the mark of a finished flight, then moves its folder to its place.
-  SweepRow land(const SweepFlight& flight, const fs::path& air, const ExitStatus& exit) const {
+  SweepRow finish(const SweepFlight& flight, const fs::path& air, const ExitStatus& exit) const {
     const Json result = read_json(air / run_folder::kResult);
     SweepRow row{flight.index, node_.name, "", nullptr};
     if (!exit.ok() || !went_to_its_end(result)) {
@@ -112,7 +112,7 @@ class UnitRun {
                        {"problem", row.problem},
                        {"node", row.node},
                        {"exit", {{"code", exit.code}, {"signal", exit.signal}}}};
-    folder_.write_in_the_air(air / kFlightMark, json_text(mark, 2) + "\n");
+    folder_.write_unfinished(air / kFlightMark, json_text(mark, 2) + "\n");
     check_still_wanted();
     put_in_place(flight, air, text_in(result, "digest"), row);
     say_ << flight.dir.string() << ": " << (row.problem.empty() ? "flown" : row.problem) << std::endl;
@@ -129,7 +129,7 @@ class UnitRun {
       if (!sooner) check_still_wanted();  // the result there may be of a newer sweep
       return sooner.has_value();
     };
-    if (folder_.land(air, flight.dir, stays)) return;
+    if (folder_.move_to_results(air, flight.dir, stays)) return;
     const std::string first = text_in(sooner->figures, "digest");
     if (sooner->node != row.node && row.problem.empty() && !first.empty() && !digest.empty()) {
       folder_.write_check(settings_.token, {flight.index, row.node, digest, sooner->node, first});
@@ -160,7 +160,7 @@ class UnitRun {
 
 /// Flies a flight in air/, and deletes its folder. @returns what `look` returns for the folder.
 auto flown_aside(const SweepFolder& folder, const SweepFlight& flight, const SweepNode& node, const auto& look) {
-  const fs::path air = folder.place_in_the_air(node.name);
+  const fs::path air = folder.make_unfinished_folder(node.name);
   try {
     const ExitStatus exit = node.fly(flight, air);
     const auto seen = look(air, exit);

@@ -1,4 +1,5 @@
-// Seconds without work: drawn records, judged once more by going through all windows one by one.
+// Compares judge_work() on random records with a simple search through all windows of 60 s, and tests its rules on
+// records made for them.
 #include "core/run/work_time.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ WorkTrack open_track(std::size_t seconds) {
   return {std::string(seconds, WorkTrack::kOpen), std::vector<double>(seconds, 0.0)};
 }
 
-/// @param often  chance of work in a second.
+/// @param often  probability of work in a second.
 WorkTrack drawn_track(RandomStream& random, std::size_t seconds, double often) {
   WorkTrack track = open_track(seconds);
   char state = WorkTrack::kOpen;
@@ -34,17 +35,17 @@ std::vector<bool> frozen(const WorkTime& time) {
   return seconds;
 }
 
-/// Goes through all windows of 60 open seconds, separately for each life of the program. Work done between two open
-/// seconds belongs to the earlier one.
+/// The frozen seconds, found by a search through all windows of 60 open seconds. A window does not extend over a time
+/// in which the program was away. Work in a second that is not open counts for the last open second before it.
 std::vector<bool> frozen_by_windows(const WorkTrack& track) {
   std::vector<bool> marked(track.open.size(), false);
   std::vector<std::size_t> open;
   std::vector<double> done;
-  const auto end_life = [&] {
+  const auto end_presence = [&] {
     for (std::size_t from = 0; from + kWorkWindow_s <= open.size(); ++from) {
       double sum = 0.0;
       for (std::size_t i = from; i < from + kWorkWindow_s; ++i) sum += done[i];
-      // Of the last open second, only the work done up to this second counts.
+      // Work after the last open second does not count for this window.
       const std::size_t last = open[from + kWorkWindow_s - 1];
       sum += track.done[last] - done[from + kWorkWindow_s - 1];
       for (std::size_t i = from; sum < 1.0 - 1e-9 && i < from + kWorkWindow_s; ++i) marked[open[i]] = true;
@@ -53,14 +54,14 @@ std::vector<bool> frozen_by_windows(const WorkTrack& track) {
     done.clear();
   };
   for (std::size_t s = 0; s < track.open.size(); ++s) {
-    if (track.open[s] == WorkTrack::kAway) end_life();
+    if (track.open[s] == WorkTrack::kAway) end_presence();
     if (track.open[s] == WorkTrack::kOpen) {
       open.push_back(s);
       done.push_back(0.0);
     }
     if (!done.empty()) done.back() += track.done[s];
   }
-  end_life();
+  end_presence();
   return marked;
 }
 
@@ -77,7 +78,7 @@ TEST(WorkTime, AgreesWithASearchThroughAllWindows) {
     some += time.frozen_s > 0;
   }
   EXPECT_GT(some, 10u);
-  EXPECT_LT(some, kDraws - 5u) << "records of both kinds were drawn";
+  EXPECT_LT(some, kDraws - 5u) << "the random records must include some with and some without frozen seconds";
 }
 
 TEST(WorkTime, AUavWithoutOpenWorkIsNeverFrozen) {
@@ -91,7 +92,7 @@ TEST(WorkTime, AUavWithoutOpenWorkIsNeverFrozen) {
   }
 }
 
-TEST(WorkTime, AStretchCountsInWholeOnceItIsAMinuteLong) {
+TEST(WorkTime, AllSecondsOfAStretchWithoutWorkCountIfItHas60) {
   for (const std::size_t stretch : {59u, 60u, 61u, 200u}) {
     WorkTrack track = open_track(stretch + 20);
     for (std::size_t s = 0; s < 10; ++s) track.done[s] = track.done[stretch + 10 + s] = 1.0;
@@ -101,7 +102,7 @@ TEST(WorkTime, AStretchCountsInWholeOnceItIsAMinuteLong) {
   }
 }
 
-TEST(WorkTime, AUavThatComesBackBeginsAnew) {
+TEST(WorkTime, TheCountRestartsWhenAProgramComesBack) {
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(3, "work_time", draw);
     WorkTrack track = open_track(150);
@@ -112,7 +113,7 @@ TEST(WorkTime, AUavThatComesBackBeginsAnew) {
   }
 }
 
-TEST(WorkTime, AUavThatWaitsForAWorkingMateIsExcusedFor45Seconds) {
+TEST(WorkTime, AUavThatWaitsForAWorkingUavIsExcusedFor45Seconds) {
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(4, "work_time", draw);
     const std::size_t wait = 1 + random.bits() % 200, count = 320, begin = 10;
@@ -129,7 +130,7 @@ TEST(WorkTime, AUavThatWaitsForAWorkingMateIsExcusedFor45Seconds) {
   }
 }
 
-TEST(WorkTime, AWaitInManyPiecesIsNoLongerThanOne) {
+TEST(WorkTime, AUavThatWaitsManyTimesIsExcusedFor45SecondsInAll) {
   WorkTrack waits = open_track(300), works = open_track(300);
   std::ranges::fill(works.done, 0.2);
   waits.done[0] = 1.0;
@@ -139,7 +140,7 @@ TEST(WorkTime, AWaitInManyPiecesIsNoLongerThanOne) {
             kMostExcused_s);
 }
 
-TEST(WorkTime, AUavThatWaitsForAMateThatStandsIsFrozen) {
+TEST(WorkTime, AUavThatWaitsForAUavWithoutWorkIsFrozen) {
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(5, "work_time", draw);
     const std::size_t count = 150 + random.bits() % 200, stands = random.bits() % 20;
@@ -155,7 +156,7 @@ TEST(WorkTime, AUavThatWaitsForAMateThatStandsIsFrozen) {
   }
 }
 
-TEST(WorkTime, OddRecordsAreReadAsFarAsTheyMakeSense) {
+TEST(WorkTime, InvalidRecordsAndWaitsAreIgnored) {
   EXPECT_TRUE(judge_work({}, {}).empty());
   const std::vector<WorkTrack> tracks = {{"11-", {0.0}}, {"", {1.0, 1.0}}};
   const std::vector<std::vector<WaitSpan>> spans = {

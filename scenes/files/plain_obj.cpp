@@ -1,3 +1,4 @@
+// Checks an OBJ file and copies its vertices and faces (plain_model.hpp).
 #include <algorithm>
 #include <charconv>
 #include <string_view>
@@ -31,7 +32,7 @@ class PlainObj {
   }
 
  private:
-  /// Splits the next line into words; a line that ends with a backslash goes on in the next line.
+  /// Splits the next line into words. A backslash at the end of a line continues it in the next line.
   void read_line() {
     words_.clear();
     for (bool goes_on = true; goes_on && at_ < text_.size();) {
@@ -46,7 +47,7 @@ class PlainObj {
     }
   }
 
-  /// Coordinates, to which some programs add a weight or a colour.
+  /// Copies x, y and z; some programs add a weight or a colour behind them.
   void copy_vertex() {
     if (words_.size() < 4) wrong("a vertex needs three numbers");
     if (words_.size() == 5 && parsed_float(words_[4]) != 1.0F) wrong("a vertex with a weight other than 1");
@@ -74,8 +75,8 @@ class PlainObj {
     plain_ += '\n';
   }
 
-  /// The number of a corner's vertex, from 1. Numbers below 0 count back from the newest vertex. The numbers of texture
-  /// coordinates and normals follow after slashes.
+  /// The number of the vertex at a corner of a face, from 1. In the file, -1 stands for the last vertex before the
+  /// face, -2 for the one before it, and so on. Slashes separate the number from those of texture coordinates and normals.
   std::int64_t vertex(std::string_view corner) const {
     const std::string_view word = corner.substr(0, corner.find('/'));
     std::int64_t index = 0;

@@ -6,14 +6,17 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMaxGapS = 0.25;      ///< two sightings farther apart give no velocity; chosen
-constexpr double kVelocityGain = 0.5;  ///< of the newest difference; chosen: smooths the 20 Hz positions
+constexpr double kMaxGapS =
+    0.25;  ///< do not compute a velocity from two sightings with a longer time between them; chosen
+constexpr double kVelocityGain =
+    0.5;  ///< weight of the newest velocity in the running average, which smooths 20 Hz data; chosen
 /// A UAV this near to its start, and not faster than kStandsMps, stands there. Chosen.
 constexpr double kStandsM = 0.5, kStandsMps = 0.3;
 
 double square(double x) { return x * x; }
 
-/// Standard deviation of a position error that has grown to a share of its stationary variance.
+/// Standard deviation of a position error, along each axis [m]. @param grown  variance of the drift as a share of its
+///   stationary variance, 0 to 1; bias and noise are independent of it.
 Vector3d deviation_m(const OdometryConditions& odometry, double grown) {
   const double always2 = square(odometry.bias_sigma_m) + square(odometry.noise_sigma_m);
   const double across_m = std::sqrt(always2 + grown * square(odometry.horizontal_sigma_m));
@@ -98,8 +101,8 @@ void Peers::update(Tick tick, const std::vector<Neighbour>& neighbours, const Li
   }
 }
 
-/// Share of its stationary variance that a UAV's position error has reached. If starts are known, the error grows from
-/// when the UAV leaves its start. Whether the UAV has lost its fix is not reported to others.
+/// Share of its stationary variance that the drift of a UAV's position has reached, 0 to 1. If UAVs know their starts,
+/// it grows from when the UAV leaves its start. It ignores losses of the fix, which UAVs do not report to each other.
 double Peers::grown(const Start& start, Tick tick) const {
   if (!odometry_.known_start || (start.left && !start.stood)) return 1.0;
   return -std::expm1(-2.0 * seconds(tick - start.stood.value_or(0)) / odometry_.time_constant_s);

@@ -21,20 +21,20 @@ class Belongings {
   Belongings(const Belongings&) = delete;
   Belongings& operator=(const Belongings&) = delete;
 
-  /// From here on they are what Python finds; those of the planner before are put away.
+  /// Makes Python use the modules, search path and generators of this planner, and stores those of the former one.
   void enter();
-  /// After code of the planner has run: modules that it has imported meanwhile are its own.
+  /// Call it after code of the planner has run: modules imported since enter() belong to this planner.
   void note_modules();
 
  private:
   struct Generators;
   void put_away();
 
-  static Belongings* current;  ///< of whom Python's are just now
+  static Belongings* current;  ///< the planner whose modules Python uses now
 
   const std::string folder_;
   py::dict modules_;
-  py::ssize_t modules_seen_ = 0;  ///< of all, when they were looked through last
+  py::ssize_t modules_seen_ = 0;  ///< number of all modules in the last note_modules()
   std::unique_ptr<Generators> generators_;
 };
 

@@ -1,4 +1,4 @@
-// The shared object's functions, and the planner that they make.
+// Functions of the shared object skein_python, and the Planner that they create for a planner in Python.
 #include "uav_agent/python/module.hpp"
 
 #include <spdlog/fmt/fmt.h>
@@ -16,7 +16,7 @@
 namespace skein::agent::python {
 namespace {
 
-/// plan() failed. The UAV's program ends with this text.
+/// plan() of the Python planner failed. The agent ends, with this text as the last lines of its log.
 class PlannerFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -5,12 +5,13 @@
 
 namespace skein_ros {
 
-inline constexpr int kFailed = 3;
+inline constexpr int kFailed = 3;  ///< exit code of fail()
 
+/// Writes one line with `text`.
 void say(const std::string& text);
-/// Writes the same text at most once.
+/// Writes `text` unless this process has written the same text with say_once() before. Any thread.
 void say_once(const std::string& text);
-/// Writes `why`, and ends the process with exit code 3.
+/// Writes `why`, and ends the process at once, without destructors, with exit code kFailed.
 [[noreturn]] void fail(const std::string& why);
 
 }  // namespace skein_ros
