@@ -13,7 +13,8 @@ class App;
 
 namespace skein::cli {
 
-/// Checks and completes the options of a command that has been parsed. @param arguments  the whole command line
+/// Checks the options of a parsed command, adds defaults, and returns what to execute.
+/// @param arguments  the whole command line
 /// @throws InputError for options that do not go together.
 using TakeCommand = std::function<Command(const std::vector<std::string>& arguments)>;
 

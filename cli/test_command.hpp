@@ -1,4 +1,4 @@
-// `skein test`, of the test suite and of fault tests.
+// `skein test`: runs the test suite or, with --faults, fault tests.
 #pragma once
 
 #include <filesystem>
@@ -15,19 +15,19 @@ class App;
 namespace skein::cli {
 
 struct TestOptions {
-  bool long_tests = false;
+  bool long_tests = false;                      ///< also tests that take minutes; with `faults`: all of `repeat`
   std::vector<std::string> folders;             ///< only tests in or below these: "sim_server", "tests/fleet"
   std::optional<std::filesystem::path> faults;  ///< a fault test, or a folder of them, instead of the suite
   std::vector<std::string> repeat;              ///< further runs of each fault test: names of enum Repeat
   bool rotate = false;                          ///< only one of `repeat` for each test, in turn
   std::filesystem::path out = "runs/faults";    ///< results of fault tests
-  std::optional<std::filesystem::path> assets;
-  std::optional<std::filesystem::path> agent;  ///< as in RunOptions
-  bool one_process = false;                    ///< as in RunOptions
-  std::optional<std::string> seeds;            ///< fly each test with each of these seeds; format as in StudyOptions
-  std::optional<std::filesystem::path> junit;  ///< file for a report of the fault tests as JUnit XML
-  int jobs = 1;                                ///< flights at once
-  bool verbose = false;                        ///< also print what was seen of what holds
+  std::optional<std::filesystem::path> assets;  ///< as in RunOptions
+  std::optional<std::filesystem::path> agent;   ///< as in RunOptions
+  bool one_process = false;                     ///< as in RunOptions
+  std::optional<std::string> seeds;             ///< fly each test with each of these seeds; format as in StudyOptions
+  std::optional<std::filesystem::path> junit;   ///< file for a report of the fault tests as JUnit XML
+  int jobs = 1;                                 ///< flights at once
+  bool verbose = false;                         ///< also print the margin of each property that holds
 };
 
 /// Adds the command `test`, whose options CLI11 parses into the second argument.

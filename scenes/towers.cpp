@@ -14,16 +14,16 @@ namespace skein::sim {
 namespace {
 
 constexpr std::size_t kTowersPoints = 4000;
-constexpr double kStripHeading = -0.3;  ///< of the row of the starts, in W
+constexpr double kStripHeading = -0.3;  ///< of the row of starts, from east in W [rad]
 
 /// The layout of the site, which is a strip along the row of the starts (core/scenario/scene_families.cpp).
 struct TowersSite {
-  double heading = 0.0;                      ///< of the deck, in W
+  double heading = 0.0;                      ///< of the deck, from east in W [rad]
   Isometry3d X_WD = Isometry3d::Identity();  ///< deck: origin on the ground below its middle, x along it
-  double deck_length = 0.0, deck_width = 0.0, deck_bottom = 0.0, deck_height = 0.0;
+  double deck_length = 0.0, deck_width = 0.0, deck_bottom = 0.0, deck_height = 0.0;  // [m]; bottom: above the ground
 };
 
-/// A place on the strip, in W.
+/// A place on the strip, in W, by the distances along and across its axis [m].
 Vector2d on_strip(double along, double across) {
   const Vector2d origin(0.0, 5.0);
   return origin + Eigen::Rotation2Dd(kStripHeading) * Vector2d(along, across);
@@ -114,7 +114,7 @@ class Tower {
     }
   }
 
-  /// Upright fins and a bay on a short side.
+  /// Vertical fins and a bay on a short side of the tower.
   void add_end_fins(double side, RandomStream& random) {
     const double face = side * 0.5 * width_;
     for (const double y : {-0.3, 0.3}) {

@@ -16,7 +16,7 @@ struct Endpoint {
   bool is_loopback() const;  ///< whether only programs on this host can reach the endpoint
   bool is_any() const;       ///< whether the address stands for all addresses of this host: 0.0.0.0 or ::
   std::string text() const;  ///< as in a URL: "127.0.0.1:8080", "[::1]:8080"
-  /// The endpoint for a browser on this host: itself, or the loopback address instead of all addresses.
+  /// The endpoint that a browser on this host opens: this one, but with the loopback address if is_any().
   Endpoint from_here() const;
   bool operator==(const Endpoint&) const = default;
 };

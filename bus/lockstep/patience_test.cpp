@@ -1,4 +1,5 @@
-// Only time during which the waiting process ran counts as waiting.
+// Patience counts only the time in which the waiting process runs. A gap of more than 1 s between two calls of over()
+// counts as 1 s.
 #include "bus/lockstep/patience.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using Time = Patience::Clock::time_point;
 
-TEST(Patience, IsOverWhenTheTimeIsUp) {
+TEST(Patience, IsOverOnceTheLimitHasPassed) {
   const Time start{};
   Patience patience(2.0, start);
   EXPECT_FALSE(patience.over(start + 1s));
@@ -17,15 +18,15 @@ TEST(Patience, IsOverWhenTheTimeIsUp) {
   EXPECT_TRUE(patience.over(start + 2100ms));
 }
 
-TEST(Patience, DoesNotCountTheTimeInWhichItsProcessStoodStill) {
+TEST(Patience, DoesNotCountTheTimeInWhichTheProcessWasStopped) {
   const Time start{};
   Patience patience(2.0, start);
-  EXPECT_FALSE(patience.over(start + 1h)) << "a process that was stopped has not yet seen what arrived meanwhile";
+  EXPECT_FALSE(patience.over(start + 1h)) << "a process that was stopped for an hour must first read what has arrived";
   EXPECT_FALSE(patience.over(start + 1h + 500ms));
   EXPECT_TRUE(patience.over(start + 1h + 1100ms));
 }
 
-TEST(Patience, WithoutALimitLastsForEver) {
+TEST(Patience, WithoutALimitIsNeverOver) {
   const Time start{};
   Patience patience(0.0, start);
   for (int s = 1; s < 10000; ++s) ASSERT_FALSE(patience.over(start + std::chrono::seconds(s)));

@@ -10,7 +10,7 @@ namespace skein::cli {
 /// Whether the scenario that `skein run` was given is a capsule. Reads the file. @throws InputError if it is not YAML.
 bool is_capsule(const RunOptions& options);
 
-/// Text for people: whether a run is bit for bit the one that a capsule was made of. Compares the digests.
+/// Message for the user: whether this run has the same digest as the run from which the capsule was made.
 /// @param digest  of the run; empty: it has none.
 std::string comparison_text(const CapsuleMark& mark, const std::string& digest);
 

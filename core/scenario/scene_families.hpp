@@ -1,5 +1,5 @@
-// Names, descriptions and start places of the procedural scene families, which every program may know. The folder
-// scenes/ generates the structures, with one file for each family.
+// Names, descriptions and start places of the families of procedural scenes. They are in core/ because every program
+// may use them; scenes/ generates the structures, with one file for each family.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@
 
 namespace skein {
 
-/// Position of the servo in B, and height of the optical centre above the servo's axis [m]: the sensor's base is at
-/// -0.03585, the optical centre 0.0377 above the base.
+/// Position of the servo in B [m], and height of the optical centre above the servo's axis [m]: the sensor's base is
+/// 0.03585 below the axis, and the optical centre 0.0377 above the base.
 inline const Vector3d kLidarServo_p_BS{0.0, 0.0, 0.2};
 inline constexpr double kLidarCentreAboveServo = -0.03585 + 0.0377;
 
@@ -24,15 +24,15 @@ inline Isometry3d lidar_pose(const Isometry3d& X_WB, double servo_angle) {
   return X_WB * Eigen::Translation3d(kLidarServo_p_BS) * R_BS * Eigen::Translation3d(0.0, 0.0, kLidarCentreAboveServo);
 }
 
-/// Angle of the servo [rad]. It starts at angle 0, turns at +rate for half a period, then at -rate, and so on; at a
-/// stop it stays there while driven against it. Closed form, so that errors do not accumulate.
+/// Angle of the servo [rad]. It starts at angle 0, turns at +rate for half a period, then at -rate, and so on; when
+/// it reaches a stop, it stays there until the direction changes. Closed form, so that errors do not accumulate.
 /// @param t_s  time since the servo was switched on, >= 0.
 inline double servo_angle(const LidarConfig& config, double t_s) {
   const double rate = config.servo_rate_deg_s * kRadPerDeg;
   const double limit = config.servo_limit_deg * kRadPerDeg;
   const double half_s = 0.5 * config.servo_period_s;
   const double cycle_s = t_s - config.servo_period_s * std::floor(t_s / config.servo_period_s);
-  // After the first half period, and whenever it has turned upwards since then, it stands at `top`.
+  // `top`: its angle at the end of each half period of +rate; `bottom`: of each half period of -rate.
   const double top = std::min(rate * half_s, limit);
   const double bottom = std::max(top - rate * half_s, -limit);
   if (cycle_s < half_s) {
@@ -69,8 +69,9 @@ inline Tick lidar_period(const LidarConfig& config) { return std::max<Tick>(1, t
 inline int first_column(const LidarConfig& config, Tick part) {
   return static_cast<int>(part * config.columns / lidar_period(config));
 }
-/// Tick at which the columns of a part are fired. The first scan of a run is fired at once.
+/// Tick at which the LiDAR fires the columns of a part of a scan. @param scan  the tick at which the scan ends.
 inline Tick fired_at(const LidarConfig& config, Tick scan, Tick part) { return scan - lidar_period(config) + 1 + part; }
+/// Whether the LiDAR fires all beams of this scan in one tick: without motion_distortion, and in a run's first scan.
 inline bool fired_at_once(const LidarConfig& config, Tick scan) {
   return !config.motion_distortion || scan < lidar_period(config);
 }

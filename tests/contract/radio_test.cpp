@@ -33,8 +33,8 @@ bool linked(std::size_t from, std::size_t to, std::uint64_t k) {
   return (from + 2 * to + k) % 3 != 0;
 }
 
-/// A node's message in a step: sometimes with an odd number of bytes, and three times a large one.
-Bytes said(std::size_t node, const std::string& topic, std::uint64_t k) {
+/// A node's message in a step, of any number of bytes; in each seventh step of 4 MB.
+Bytes message_of(std::size_t node, const std::string& topic, std::uint64_t k) {
   const bool large = k % 7 == 5;
   return numbered(1000 * k + 10 * node + topic.size(), large ? kLarge + 3 * node : 8 + (k * 37 + node) % 5000);
 }
@@ -80,9 +80,9 @@ class Member {
     radio_.begin_step();
     if (k_ == 1) radio_.listen(kLater, kLaterType, hear(kLater));
     if (k_ == 2 && node_ != 2) radio_.send(kLater, kLaterType, {node_ == 1 ? "b" : "all"});
-    if (k_ == 3) ask_for_nonsense();
-    if (node_ == 1) client_.write("rt/blob", said(node_, kBlob, k_));
-    if (radio_.write(kLater, said(node_, kLater, k_))) sent_.push_back(k_);
+    if (k_ == 3) send_invalid_requests();
+    if (node_ == 1) client_.write("rt/blob", message_of(node_, kBlob, k_));
+    if (radio_.write(kLater, message_of(node_, kLater, k_))) sent_.push_back(k_);
     client_.done();
     finished_ = client_.step().final_step();
   }
@@ -100,7 +100,7 @@ class Member {
   }
 
   /// Sends invalid requests, each invalid for another reason.
-  void ask_for_nonsense() {
+  void send_invalid_requests() {
     radio_.send("/itself", kLaterType, {kNodes[node_]});
     radio_.send("/nobody", kLaterType, {"nowhere"});
     radio_.send("/skein/mine", kLaterType, {"all"});
@@ -176,13 +176,13 @@ std::vector<std::pair<std::uint64_t, Bytes>> expected(std::size_t to, const std:
     for (std::size_t from = 0; from < kNodes.size(); ++from) {
       const bool sends = topic == kBlob ? from == 1 : std::ranges::find(sent[from], k) != sent[from].end();
       const bool targets = topic == kBlob || from == 0 || to == 2;
-      if (sends && targets && linked(from, to, k)) list.emplace_back(k + 1, padded(said(from, topic, k)));
+      if (sends && targets && linked(from, to, k)) list.emplace_back(k + 1, padded(message_of(from, topic, k)));
     }
   }
   return list;
 }
 
-/// The small world of one test: the member of `a` uses the second vendor, all others use the first.
+/// The fleet of one test: the member of `a` uses the second vendor of the pair, all others use the first.
 class Radio : public testing::TestWithParam<Pair> {
  protected:
   Radio() {
@@ -208,7 +208,7 @@ class Radio : public testing::TestWithParam<Pair> {
 
   /// The digest over all deliveries is the same with every vendor.
   void expect_usual_digest() const {
-    static const std::string first = server_.digest();
+    static const std::string first = server_.digest();  // of the first vendor that was tested
     EXPECT_TRUE(server_.digest() == first);
   }
 
@@ -228,7 +228,8 @@ TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
   const auto listen = [](bus::Participant& where, const std::string& name, auto& count) {
     return where.create_reader({name, wire_type(kBlobType), {.depth = 1000}}, [&count](bus::Sample&&) { ++count; });
   };
-  const auto own_ear = listen(*at_a, "rt/blob/a", back), far_ear = listen(*at_gcs, "rt/blob", from_elsewhere);
+  const auto own_arrivals = listen(*at_a, "rt/blob/a", back),
+             foreign_sends = listen(*at_gcs, "rt/blob", from_elsewhere);
   ASSERT_NO_FATAL_FAILURE(fly());
 
   std::vector<std::vector<std::uint64_t>> sent;
@@ -245,8 +246,8 @@ TEST_P(Radio, CarriesAnyTypeBitForBitToThePermittedNodes) {
         EXPECT_TRUE(heard[i] == must[i]) << "message " << i << " on " << topic;
     }
   }
-  EXPECT_EQ(back, 0) << "the sender's domain got its own messages as arrivals";
-  EXPECT_EQ(from_elsewhere, 0) << "a message got into another domain on the topic on which it was sent";
+  EXPECT_EQ(back, 0) << "the router returned messages to their sender";
+  EXPECT_EQ(from_elsewhere, 0) << "a message reached another domain under the topic name of its sender";
   const router::LinkCounts total = router_.gate().total();
   EXPECT_EQ(total.sent, total.delivered + total.dropped_no_los);
   expect_usual_digest();

@@ -1,5 +1,5 @@
-// Attacks on a run: programs of another run in its domains, a ground program that poses as the station, and a person
-// who pauses programs and lets them continue.
+// Attacks on a run: programs of another run in its domains, a ground program that forges the station's messages, and
+// SIGSTOP and SIGCONT from outside.
 #include <signal.h>
 
 #include <algorithm>
@@ -17,14 +17,14 @@ constexpr int kAttempts = 5;
 
 class Attack : public FleetTest, public testing::WithParamInterface<std::string> {
  protected:
-  SkeinRun& brief(const std::string& name, const std::string& planner, const Arguments& more = {}) {
+  SkeinRun& fly_a_minute(const std::string& name, const std::string& planner, const Arguments& more = {}) {
     Arguments arguments = {"towers", "--planner", planner, "--duration", "60", "--dds", GetParam()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run(name, arguments);
   }
 
   /// Starts a client of another run in the domain of each UAV. Call it before the fleet starts.
-  std::vector<ChildProcess*> knock_at(int base) {
+  std::vector<ChildProcess*> start_leftover_clients(int base) {
     std::vector<ChildProcess*> clients;
     for (std::size_t i = 0; i < kFleet.size(); ++i) {
       clients.push_back(&start_program("leftover_" + kFleet[i], {helper_program("minimal_client")},
@@ -38,11 +38,11 @@ class Attack : public FleetTest, public testing::WithParamInterface<std::string>
 };
 
 TEST_P(Attack, TheServerIgnoresClientsThatAnotherRunLeftBehind) {
-  const std::string digest = brief("alone", "patrol").digest();
+  const std::string digest = fly_a_minute("alone", "patrol").digest();
   // The clients hold no lock, so another test's fleet may take the domains first. Then the test tries other domains.
   for (int attempt = 1; attempt <= kAttempts; ++attempt) {
     const int base = FreeDomains(2 + static_cast<int>(kFleet.size())).base();
-    const std::vector<ChildProcess*> leftover = knock_at(base);
+    const std::vector<ChildProcess*> leftover = start_leftover_clients(base);
     SkeinRun& visited = start(
         "visited" + std::to_string(attempt),
         {"towers", "--planner", "patrol", "--duration", "60", "--dds", GetParam(), "--domain", std::to_string(base)});
@@ -61,13 +61,14 @@ TEST_P(Attack, TheServerIgnoresClientsThatAnotherRunLeftBehind) {
   }
 }
 
-TEST_P(Attack, ForgedAcknowledgementsEraseNothing) {
-  SkeinRun& alone = brief("alone", "patrol");
+TEST_P(Attack, AUavIgnoresForgedAcknowledgements) {
+  SkeinRun& alone = fly_a_minute("alone", "patrol");
   ASSERT_GT(alone.result()["score"], 0.0);
   std::string forger = "patrol,gcs=exec:" + helper_program("forger");
   for (const std::string& uav : kFleet) forger += " " + uav;
-  SkeinRun& forged = brief("forged", forger);
-  EXPECT_TRUE(forged.result()["lost_members"].empty()) << "the forger does not take part in the lock-step";
+  SkeinRun& forged = fly_a_minute("forged", forger);
+  EXPECT_TRUE(forged.result()["lost_members"].empty())
+      << "the forger does not join the lock-step, so it cannot be lost";
   EXPECT_EQ(forged.result()["score"], alone.result()["score"]);
   EXPECT_EQ(forged.digest(), alone.digest()) << "a UAV has received forged acknowledgements";
 }
@@ -83,7 +84,7 @@ TEST_P(Attack, AProgramThatIsPausedForAWhileIsNotLost) {
   for (const std::string& victim : victims) order += " " + victim;
   SCOPED_TRACE("order:" + order);
   for (const std::string& victim : victims) ::kill(found.at(victim), SIGSTOP);
-  // The pause is longer than usual leases of DDS.
+  // The pause is longer than the lease of Cyclone DDS without settings (10 s).
   EXPECT_FALSE(eventually([&] { return flying.skein().ended().has_value(); }, std::chrono::seconds(12)));
   for (const std::string& victim : victims) ::kill(found.at(victim), SIGCONT);
   EXPECT_EQ(flying.exit_code(), 0) << flying.err();

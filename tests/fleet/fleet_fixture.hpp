@@ -19,21 +19,21 @@ inline const std::vector<std::string> kPrograms = {"sim_server",       "comm_rou
                                                    "uav_agent-jurong", "uav_agent-raffles", "uav_agent-sentosa",
                                                    "uav_agent-changi", "uav_agent-nanyang"};
 
-/// True when the environment asks for the tests that take minutes.
+/// Whether to run the tests that take minutes: SKEIN_LONG is set.
 bool long_tests();
 
 /// Path of a built program.
 std::string program(const std::string& name);
 
-/// may_be_unfinished: a program still writes the file, so a last line without a line break is left out.
+/// may_be_unfinished: a program still writes the file, so read_csv() leaves out a last line without a line break.
 enum class LastLine { whole, may_be_unfinished };
 
 /// Every row of a CSV file with a header, by column.
 std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::path& file,
                                                          LastLine last = LastLine::whole);
 
-/// Processes that were started with `--out dir`, or as a user's command with SKEIN_OUT=dir, by the names that they have
-/// in Skein's messages.
+/// The processes of a fleet, by their names in Skein's messages: those with `--out dir` in their command line, and
+/// user's commands with SKEIN_OUT=dir in their environment.
 std::map<std::string, pid_t> processes_of(const std::filesystem::path& dir);
 
 /// True once the server has written some simulated seconds of trajectories: it writes them in blocks.
@@ -98,7 +98,7 @@ class FleetTest : public testing::Test {
   /// memory in use may belong to other tests.
   void expect_nothing_left();
 
-  /// Expects everything that docs/results.md promises for any run, also for a failed one.
+  /// Expects the files and keys that docs/results.md promises for every run, even a failed one.
   static void expect_complete_result(const SkeinRun& run);
 
  private:

@@ -1,5 +1,5 @@
-// Hosts with login by ssh: network namespaces, each with a real sshd on its own address, throwaway keys, and a clock
-// that differs from the others'. The first host is the launcher's and has no sshd.
+// Simulates hosts with login by ssh: network namespaces, each with a real sshd on its own address and keys made for the
+// test. The first host is that of the launcher and has no sshd. set_time_of_day() can give a host a wrong clock.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace skein::test {
 
 class LoginHosts {
  public:
-  /// @param names  the first is the launcher's
+  /// @param names  names of the hosts; the launcher runs on the first
   explicit LoginHosts(const std::vector<std::string>& names) : names_(names), hosts_(names) {}
 
   /// Shifts the time of day that programs on that host see, by "+5h" or "-30d" for example (Debian's libfaketime).
@@ -35,8 +35,11 @@ class LoginHosts {
   bool is_clean(const std::string& name) const;
   /// Names of all temporary files there.
   std::vector<std::string> files_on(const std::string& name) const;
+  /// Cuts the network between that host and the others.
   void cut(const std::string& name) const;
+  /// Ends cut().
   void mend(const std::string& name) const;
+  /// What that host's sshd has logged.
   std::string log(const std::string& name) const { return text_of(folder_ / (name + ".sshd")); }
 
  private:

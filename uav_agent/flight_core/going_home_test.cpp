@@ -1,4 +1,5 @@
-// Flights home of a whole flight core: when a UAV gives them up, and what becomes of its strategy's goals.
+// Flights home, with a whole flight core: when a UAV gives up such a flight, and that its strategy's goals stay in
+// force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,8 @@ namespace {
 
 constexpr double kRoomHalfM = 20.0;
 
-/// A UAV without a working LiDAR in a room that is proved free, with captures that wait for a link.
+/// A UAV without a working LiDAR in a block of space that is proved free, with captures that it must deliver. Without
+/// further beams, it can never leave this space.
 struct InARoom : CoreUav {
   explicit InARoom(const Vector3d& station_W) : CoreUav(with_station(station_W), {0.0, 0.0, 12.0}) {
     config.deliver_every_s = 30.0;
@@ -53,7 +55,7 @@ struct InARoom : CoreUav {
 };
 
 // No beam proves the space between the UAV's room and the station.
-TEST(GoingHome, AUavThatFindsNoWayHomeGoesBackToWork) {
+TEST(GoingHome, AUavThatFindsNoPathHomeGoesBackToWork) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(seed, "no_way_home", 0);
     const double turn = random.uniform(0.0, 6.28), off_m = random.uniform(60.0, 200.0);
@@ -75,12 +77,12 @@ TEST(GoingHome, AUavThatFindsNoWayHomeGoesBackToWork) {
       recovered = uav.recovers();
     }
     EXPECT_GT(reached_late, 10) << "seed " << seed;
-    EXPECT_GE(recoveries, 3) << "seed " << seed << ": it tries again";
+    EXPECT_GE(recoveries, 3) << "seed " << seed << ": it must try to fly home again and again";
   }
 }
 
-// In the last seconds, the UAV has nothing better to do than to look for a way home.
-TEST(GoingHome, InTheEndAUavThatFindsNoWayHomeDoesNotGiveUp) {
+// With 10 s left in the mission, the UAV keeps searching for a path home instead of flying to further goals.
+TEST(GoingHome, NearTheEndOfTheMissionAUavThatFindsNoPathHomeDoesNotGiveUp) {
   InARoom uav({150.0, 0.0, 0.3});
   int worked = 0;
   for (int i = 0; i < 20 * 300; ++i) {
@@ -94,8 +96,8 @@ TEST(GoingHome, InTheEndAUavThatFindsNoWayHomeDoesNotGiveUp) {
 }
 
 // The strategy sets the goal only once, and the UAV has not reached it when it must fly home. The link returns while
-// the UAV flies home, or while it recovers because there is no way home.
-TEST(GoingHome, AGoalOutlivesAFlightHomeThatIsNoLongerNeeded) {
+// the UAV flies home, or while it recovers because it finds no path home.
+TEST(GoingHome, TheUavFliesToItsFormerGoalWhenALinkEndsItsFlightHome) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "outlives", 0);
     const bool has_way = seed % 2 == 0;

@@ -6,8 +6,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSameM = 0.1;    ///< smaller distances count as this; numeric: no factor separates equal places
-constexpr double kRoundM = 1e-6;  ///< added against rounding, so that one turn suffices to spread a group
+constexpr double kSameM = 0.1;    ///< smaller distances count as this: no factor can separate two equal places; numeric
+constexpr double kRoundM = 1e-6;  ///< added so that rounding does not leave two places too close; numeric
 constexpr int kMostTurns = 10;    ///< numeric: bounds the effort
 
 using Places = std::vector<Vector3d>;
@@ -26,6 +26,7 @@ Group group_of(std::size_t first, const Places& places_W, double apart_m) {
   return group;
 }
 
+/// Moves the places of a group away from its centre by one factor, so that the closest two are apart_m apart.
 void spread(const Group& group, double apart_m, Places& places_W) {
   Vector3d centre_W = Vector3d::Zero();
   double closest_m = apart_m;
@@ -46,7 +47,7 @@ Vector3d landing_place_W(const AgentConfig& agent, double apart_m) {
   for (const FleetMember& member : agent.fleet) {
     places_W.emplace_back(member.p_WB_start.x(), member.p_WB_start.y(), 0.0);
   }
-  // A group that was spread may have come close to another one.
+  // Repeat: a group that was spread may now be close to another one.
   bool any_moved = true;
   for (int turn = 0; any_moved && turn < kMostTurns; ++turn) {
     any_moved = false;

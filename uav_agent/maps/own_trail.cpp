@@ -9,9 +9,10 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kMostM = 1e5;  ///< numeric: a position farther from the origin is wrong
+constexpr double kMostM = 1e5;  ///< farther from the origin, update() ignores a position as wrong; numeric
 constexpr int kBlockBits = 2;   ///< memory: a block has 2^kBlockBits cubes along each axis
 
+/// The bit that stands for a cube in the word of its block.
 std::uint64_t bit_of(const Eigen::Vector3i& cube) {
   constexpr int kMask = (1 << kBlockBits) - 1;
   const int place = (cube.x() & kMask) | (cube.y() & kMask) << kBlockBits | (cube.z() & kMask) << 2 * kBlockBits;

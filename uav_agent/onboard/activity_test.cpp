@@ -26,7 +26,7 @@ class ActivityWords : public testing::Test {
     count_ += told ? 1 : 0;
     return told;
   }
-  /// @returns how often it reports an activity meanwhile.
+  /// Several exchanges with the same facts. @returns how many of them report an activity.
   int steps(int exchanges) {
     count_ = 0;
     for (int i = 0; i < exchanges; ++i) step();
@@ -41,11 +41,11 @@ class ActivityWords : public testing::Test {
   int count_ = 0;
 };
 
-TEST_F(ActivityWords, AreReportedWhenTheyChangeAndEachSecond) {
+TEST_F(ActivityWords, AreReportedWhenTheyChangeAndOnceASecond) {
   const auto first = step();
   ASSERT_TRUE(first);
   EXPECT_EQ(first->mode, "on the ground");
-  facts_.speed_mps = 1.0;  // numbers alone are not news
+  facts_.speed_mps = 1.0;  // a change of numbers alone is not reported at once
   EXPECT_EQ(steps(60), 3);
   doing(What::takeoff, Vector3d(0.0, 0.0, 5.0));
   const auto takeoff = step();
@@ -53,12 +53,12 @@ TEST_F(ActivityWords, AreReportedWhenTheyChangeAndEachSecond) {
   EXPECT_EQ(takeoff->mode, "takes off");
   EXPECT_EQ(takeoff->goal_W, Vector3d(0.0, 0.0, 5.0));
   doing(What::takeoff, Vector3d(0.0, 0.4, 5.0));
-  EXPECT_FALSE(step()) << "that is the same place";
+  EXPECT_FALSE(step()) << "a place less than 0.5 m away counts as the same";
   doing(What::takeoff, Vector3d(0.0, 0.6, 5.0));
   EXPECT_TRUE(step());
 }
 
-TEST_F(ActivityWords, DifferForAllThatAUavMayDo) {
+TEST_F(ActivityWords, DifferForAllStatesOfAUav) {
   std::set<std::string> words;
   facts_.undelivered = 1;
   for (int what = 0; what <= static_cast<int>(What::awaits_link); ++what) {
@@ -78,7 +78,7 @@ TEST_F(ActivityWords, DifferForAllThatAUavMayDo) {
   EXPECT_EQ(last_.mode, "shows changi its way up");
 }
 
-/// The beginnings of words that the live page shows in a colour of their own.
+/// The beginnings of the texts to which the live page gives a colour of their own.
 std::vector<std::string> beginnings_on_the_page() {
   std::ifstream page(source_path("web/src/modes.js"));
   std::vector<std::string> beginnings;
@@ -107,7 +107,7 @@ TEST_F(ActivityWords, HaveAColourOnTheLivePage) {
   }
 }
 
-TEST_F(ActivityWords, StayTheSameBetweenTwoGoals) {
+TEST_F(ActivityWords, StayTheSameForHalfASecondBetweenTwoGoals) {
   doing(What::to_goal, Vector3d(9.0, 0.0, 5.0));
   facts_.speed_mps = 1.0;
   step();
@@ -143,13 +143,13 @@ TEST_F(ActivityWords, StayTheSameWhileTheUavRestsAtAPlace) {
   EXPECT_EQ(last_.mode, "has no goal");
 }
 
-TEST_F(ActivityWords, TellWhyThereIsNoWayUntilItFliesOn) {
+TEST_F(ActivityWords, TellWhyNoPathWasFoundUntilTheUavFliesAgain) {
   doing(What::no_goal);
   step();
   facts_.no_way = "not proved to be free";
   ASSERT_TRUE(step());
   steps(100);
-  EXPECT_EQ(last_.no_way, "not proved to be free") << "that is why it stands there";
+  EXPECT_EQ(last_.no_way, "not proved to be free") << "the UAV still stands there for this reason";
   doing(What::looks_round);
   steps(100);
   EXPECT_EQ(last_.no_way, "not proved to be free");
@@ -158,12 +158,12 @@ TEST_F(ActivityWords, TellWhyThereIsNoWayUntilItFliesOn) {
   EXPECT_EQ(last_.no_way, "");
   facts_.no_way = "no way";  // another goal
   steps(20);
-  EXPECT_EQ(last_.no_way, "no way") << "long enough to be read";
+  EXPECT_EQ(last_.no_way, "no way") << "a reason stays for a second, so that viewers can read it";
   steps(2);
   EXPECT_EQ(last_.no_way, "");
 }
 
-TEST_F(ActivityWords, NameTheUavForWhichItWaits) {
+TEST_F(ActivityWords, NameTheUavForWhichAUavWaits) {
   step();
   facts_.waits_for = 1;
   ASSERT_TRUE(step());
@@ -203,7 +203,7 @@ TEST_F(ActivityWords, TellWhatHoldsAUavThatStands) {
   EXPECT_EQ(last_.mode, "waits to be shown its way up") << "this mode says already why it stands";
 }
 
-TEST_F(ActivityWords, ArePlainForPlannersThatFlyThemselves) {
+TEST_F(ActivityWords, DescribeTheMotionOfPlannersWithoutTheFlightCore) {
   facts_.what = OwnMotion{};
   step();
   EXPECT_EQ(last_.mode, "on the ground");

@@ -5,7 +5,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAgainS = 15.0;  ///< wait before a strip that could not be flown is offered again; chosen
+constexpr double kAgainS = 15.0;  ///< time after which next() offers a strip again that the UAV could not fly; chosen
 
 }  // namespace
 
