@@ -80,7 +80,7 @@ void open_counts(std::optional<CountStore>& store, const std::filesystem::path& 
                  std::vector<std::string>& unwritten) try {
   store.emplace(file, nodes, run);
 } catch (const std::system_error& error) {
-  spdlog::warn("{}; a router that is killed will not remember what it counted", error.what());
+  spdlog::warn("{}; if the router is killed, its counts are lost", error.what());
   unwritten.push_back(error.what());
 }
 

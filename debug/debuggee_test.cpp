@@ -13,12 +13,12 @@ using How = Debuggee::How;
 std::string program_of(const std::string& name) {
   if (name == "jurong" || name == "changi") return programs::agent_program(name);
   if (name == "station") return name;
-  throw InputError("nobody is called " + name);
+  throw InputError("no program is called " + name);
 }
 
 std::vector<Debuggee> parse(const std::vector<std::string>& values) { return parse_debug(values, program_of); }
 
-TEST(Debuggee, EachWayToDebugIsRead) {
+TEST(Debuggee, ParseDebugReadsEachWayToDebug) {
   EXPECT_EQ(parse({"jurong"})[0].how, How::by_hand);
   EXPECT_EQ(parse({"station"})[0].how, How::wait)
       << "the station needs its pipe to the launcher, so the user cannot start it by hand";

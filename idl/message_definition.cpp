@@ -29,7 +29,8 @@ const std::map<std::string, std::string>& basic_types() {
   return kTypes;
 }
 
-/// "geometry_msgs::msg::dds_::Pose_", or "Pose_" in its own package, as "geometry_msgs/Pose".
+/// The ROS 2 name of a type in the IDL: of "geometry_msgs::msg::dds_::Pose_", or of "Pose_" within geometry_msgs, it is
+/// "geometry_msgs/Pose".
 std::string ros_type(const std::string& idl_type, const std::string& package) {
   const auto basic = basic_types().find(idl_type);
   if (basic != basic_types().end()) return basic->second;
@@ -39,7 +40,7 @@ std::string ros_type(const std::string& idl_type, const std::string& package) {
   return (match[1].matched ? match[1].str() : package) + "/" + match[2].str();
 }
 
-/// A member's line of ROS 2's, e.g. "float64[36] covariance".
+/// A member of an IDL struct as a line of a ROS 2 message definition: "float64[36] covariance".
 std::string ros_field(const std::string& line, const std::string& package) {
   static const std::regex kSequence(R"(sequence<\s*([\w: ]+?)\s*>\s+(\w+);)");
   static const std::regex kMember(R"(([\w: ]+?)\s+(\w+)(\[\d+\])?;)");
@@ -65,7 +66,8 @@ std::string wire_name(const std::string& ros_name) {
 
 using Fields = std::map<std::string, std::string>;
 
-/// The types that `fields` names, in the order of their appearance, each once, and theirs.
+/// Appends the message types that `fields` names, and in turn those that these types name, each once, in the order in
+/// which they first appear.
 void collect_parts(const Fields& all, const std::string& fields, std::vector<std::string>& parts) {
   std::istringstream lines(fields);
   for (std::string type, name; lines >> type >> name;) {

@@ -27,7 +27,7 @@ constexpr const char* kSteppingScript = "stepping.py";
 constexpr const char* kOneProcessMedium = "one process";
 constexpr const char* kDdsMedium = "over DDS";
 
-/// How much is measured.
+/// Number and length [s] of the flights and of the stepped runs.
 struct PythonEffort {
   int pairs = 5;
   double flight_s = 200.0;
@@ -82,7 +82,7 @@ class PythonBench {
   }
 
  private:
-  /// C++ and Python by turns, so that other load of the machine affects both alike.
+  /// Flies in C++ and in Python alternately, so that other load of the machine affects both alike.
   Json fly_pairs(bool one_process) {
     std::vector<LanguagePair> pairs;
     for (int i = 0; i < effort_.pairs; ++i) {

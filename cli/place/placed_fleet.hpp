@@ -24,7 +24,7 @@ namespace skein::cli {
 class PlacedFleet final : public ProgramHost {
  public:
   /// Connects to the hosts. @throws InputError when a host cannot be reached, has another build, is the same machine as
-  ///   another host, or does not know the launcher's address, which is needed without --network.
+  ///   another host, or does not know the launcher's address although the user gave no --network.
   PlacedFleet(const FleetPlan& plan, const std::vector<PlacedHost>& hosts);
   /// Ends the local programs and, by closing the connections, the remote ones.
   ~PlacedFleet() override;
@@ -33,8 +33,9 @@ class PlacedFleet final : public ProgramHost {
   /// @throws InputError when there are none.
   void take_domains(std::optional<int> base, int size);
   const DomainBlock& domains() const { return *domains_; }
-  /// How DDS reaches the hosts, as a value of --network: the user's own; else the domain of each placed program has its
-  /// host and this one as peers, and no other domain leaves this host. nullopt: no domain does.
+  /// How DDS reaches the hosts, as a value of --network. If the user gave none, the domain of each placed program has
+  /// as peers the program's host and this host, and all other domains stay on this host. nullopt: all domains stay on this
+  /// host.
   const std::optional<std::string>& network() const { return network_; }
   /// Runs a doctor on each host and here at the same time: they check that DDS connects the hosts in the domains of the
   /// placed programs. @param tell  receives a message, since this takes a while. @throws InputError with what the

@@ -41,7 +41,8 @@ TEST_F(ActivityLogTest, HasALineForEachNewActivityAndIgnoresChangedNumbers) {
   Simulation simulation(scenario_, {}, 0);
   const std::string head = "step,time_s,uav,mode,goal_x,goal_y,goal_z,waits_for,no_way\n";
   ActivityLog log(folder_, scenario_);
-  EXPECT_EQ(text(), head) << "the log writes the table's head at once, also if the server is killed before any row";
+  EXPECT_EQ(text(), head) << "the log writes the head at once, so that the table is complete even if the server is "
+                             "killed before the first row";
   Activity activity{.mode = "takes off", .goal_W = Vector3d(1.0, 2.25, -0.5)};
   EXPECT_TRUE(log.add(simulation, kJurong, activity));
   EXPECT_TRUE(log.add(simulation, kChangi, {.mode = "on the ground", .waits_for = "jurong", .no_way = "no way"}));

@@ -25,7 +25,8 @@ struct Workplace {
 /// so safe from any thread.
 class Workplaces {
  public:
-  static constexpr double kBerth = 1.4;   ///< clearance of the proof that a world is flyable [m]: every vehicle fits
+  static constexpr double kBerth =
+      1.4;  ///< clearance that is_flyable() requires, too [m]; sufficient for every vehicle
   static constexpr double kLeastQ = 0.3;  ///< places from which the quality is lower are not workplaces
 
   Workplaces(const Scenario& scenario, const Scene& scene);

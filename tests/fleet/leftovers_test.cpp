@@ -1,5 +1,5 @@
-// All processes that a user's command starts end with the run: in the background, in a session of their own, with
-// another environment. They also end if the launcher is killed.
+// All processes that a user's command has started end with the run, even those in the background, in a session of their
+// own, or with an empty environment. They also end if the launcher is killed.
 #include <signal.h>
 
 #include <sstream>
