@@ -7,14 +7,14 @@
 namespace skein::view {
 namespace {
 
-constexpr std::size_t kLongestLook = 1000, kLongestUavName = 64;  // [bytes]
+constexpr std::size_t kLongestLook = 1000, kLongestCloudUav = 64;  // [bytes]
 constexpr std::size_t kMostNames = 32;
 
 /// @returns whether `value` may be a UAV's name; if so, `name` gets it.
 bool take_name(const Json& value, std::string& name) {
   if (!value.is_string()) return false;
   name = value.get<std::string>();
-  return !name.empty() && name.size() <= kLongestUavName;
+  return !name.empty() && name.size() <= kLongestCloudUav;
 }
 
 bool take_names(const Json& value, std::vector<std::string>& names) {

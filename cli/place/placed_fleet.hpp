@@ -34,8 +34,7 @@ class PlacedFleet final : public ProgramHost {
   void take_domains(std::optional<int> base, int size);
   const DomainBlock& domains() const { return *domains_; }
   /// How DDS reaches the hosts, as a value of --network. If the user gave none, the domain of each placed program has
-  /// as peers the program's host and this host, and all other domains stay on this host. nullopt: all domains stay on this
-  /// host.
+  /// as peers the program's host and this host, and all other domains stay on this host. nullopt: all domains do.
   const std::optional<std::string>& network() const { return network_; }
   /// Runs a doctor on each host and here at the same time: they check that DDS connects the hosts in the domains of the
   /// placed programs. @param tell  receives a message, since this takes a while. @throws InputError with what the
