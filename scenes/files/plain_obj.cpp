@@ -76,7 +76,8 @@ class PlainObj {
   }
 
   /// The number of the vertex at a corner of a face, from 1. In the file, -1 stands for the last vertex before the
-  /// face, -2 for the one before it, and so on. Slashes separate the number from those of texture coordinates and normals.
+  /// face, -2 for the one before it, and so on. Slashes separate the number from those of texture coordinates and
+  /// normals.
   std::int64_t vertex(std::string_view corner) const {
     const std::string_view word = corner.substr(0, corner.find('/'));
     std::int64_t index = 0;
