@@ -83,7 +83,7 @@ struct Without {
   TrialOutcome outcome = {};
   double points = 0.0;                 ///< what the cause cost, in points of the score
   std::optional<double> seconds = {};  ///< how much sooner the lower of the two final scores was reached without it
-  std::string parts = {};              ///< where the two runs first differ; empty: nowhere
+  std::string parts = {};              ///< text that says where the two runs first differ; empty: nowhere
 };
 
 void check_window(const std::vector<double>& window_s, double duration_s) {
@@ -139,7 +139,8 @@ std::optional<double> time_of_score(const results::RunRecord& run, double score)
   return std::nullopt;
 }
 
-/// Compares in both directions: the removed cause may have lowered the score or raised it.
+/// Fills `points`, `seconds` and `parts`. The removed cause may have lowered the score or raised it.
+/// @param there, score  folder and score of the flight with all causes.   @param here  folder of this flight.
 void compare(Without& without, const fs::path& there, const fs::path& here, double score) {
   without.points = without.outcome.score - score;
   const results::RunRecord with = results::read_run(there), less = results::read_run(here);
@@ -219,8 +220,9 @@ void add_blame(CLI::App& app, BlameOptions& blame) {
 int blame(const BlameOptions& options, const Console& console) {
   const Subject subject = subject_of(options);
   if (subject.faults.empty() && options.messages.empty()) {
-    throw InputError(options.what.string() +
-                     ": it has no faults to blame; --messages FROM UNTIL takes away what links carry");
+    throw InputError(
+        options.what.string() +
+        ": it has no faults to blame; --messages FROM UNTIL flies it without the messages of one link at a time");
   }
   HuntPlan plan = plan_of(options, subject);
   check_window(options.messages, plan.fleet.scenario.duration_s);

@@ -1,4 +1,4 @@
-// Registrations against a world of endpoints that match when the test says so.
+// Tests registrations with simulated DDS endpoints: the test decides which of them match, and when.
 #include "comm_router/radio_registry.hpp"
 
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ class Registry : public testing::Test {
                            .lost = [this](SourceId source) { return lost_.contains(source); }}};
 };
 
-TEST_F(Registry, OpensOnceTheWriterIsFound) {
+TEST_F(Registry, OpensATopicOnceItHasMatchedTheWriter) {
   hears_.clear();
   registry_.begin_step({sending(kFirst, 5)});
   EXPECT_EQ(opened_.size(), 1U);
@@ -80,7 +80,7 @@ TEST_F(Registry, ARequestWithoutAMatchingWriterIsRefusedWithTheReason) {
   EXPECT_FALSE(replies[0].open);
   EXPECT_NE(replies[0].reason.find("BEST_EFFORT"), std::string::npos);
   EXPECT_TRUE(admitted_.empty());
-  EXPECT_EQ(registry_.decided_by_clock().size(), 1U) << "with more patience, the registry might have found a writer";
+  EXPECT_EQ(registry_.decided_by_clock().size(), 1U) << "this refusal depends on wall time";
   EXPECT_TRUE(opened_.empty()) << "the endpoints made for the request are freed";
   hears_ = {kFirst};
   EXPECT_TRUE(step({sending(kFirst, 6)}).at(0).open) << "the member may ask again";
@@ -88,7 +88,7 @@ TEST_F(Registry, ARequestWithoutAMatchingWriterIsRefusedWithTheReason) {
   EXPECT_EQ(opened_.size(), 1U);
 }
 
-TEST_F(Registry, TheFleetDoesNotWaitForAMemberThatAsksInVainAgainAndAgain) {
+TEST_F(Registry, TheFleetDoesNotWaitForAMemberAfterThreeRequestsWithoutAWriter) {
   hears_ = {kSecond};
   for (std::uint32_t id = 0; id < RadioRegistry::kMaxVain; ++id) {
     registry_.begin_step({sending(kFirst, id)});
@@ -100,7 +100,7 @@ TEST_F(Registry, TheFleetDoesNotWaitForAMemberThatAsksInVainAgainAndAgain) {
   const auto replies = registry_.end_step();
   ASSERT_EQ(replies.size(), 2U);
   EXPECT_NE(replies[0].reason.find("three times"), std::string::npos);
-  EXPECT_TRUE(replies[1].open) << "others are heard as before";
+  EXPECT_TRUE(replies[1].open) << "requests of other members are answered as before";
   EXPECT_TRUE(registry_.decided_by_clock().empty()) << "this refusal depends on nothing but the requests";
 }
 
@@ -108,17 +108,18 @@ TEST_F(Registry, ListenersMayComeFirstOrLater) {
   EXPECT_EQ(step({listening(kSecond, 1)}).at(0), (RadioReply{.asker = {kSecond, Node{2}, 1}})) << "nobody sends yet";
   const auto replies = step({sending(kFirst, 1)});
   ASSERT_EQ(replies.size(), 2U);
-  EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"})) << "b has yet to open its reader";
+  EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"})) << "b has not opened its reader yet";
   EXPECT_EQ(replies[1], (RadioReply{.asker = {kSecond, Node{2}, 1}, .open = true}));
   reaches_.clear();
   registry_.begin_step({listening(kStation, 1)});
-  EXPECT_TRUE(registry_.waiting()) << "b says by its answer that it has found us; we wait until we have found it";
+  EXPECT_TRUE(registry_.waiting())
+      << "the new listener has matched the router; the router waits until it has matched the listener";
   reaches_ = {kFirst, kSecond, kStation};
   const auto more = registry_.end_step();
   ASSERT_EQ(more.size(), 2U);
   EXPECT_EQ(more[0].unheard, std::vector<std::string>{"gcs"});
   EXPECT_TRUE(more[1].open);
-  EXPECT_TRUE(step().at(0).unheard.empty()) << "both ends of all are matched";
+  EXPECT_TRUE(step().at(0).unheard.empty()) << "the router has matched a reader at each target";
 }
 
 TEST_F(Registry, DeclaredReadersCountAsListeners) {
@@ -195,7 +196,7 @@ TEST_F(Registry, ARefusedRequestDecidesNoType) {
   }
 }
 
-TEST_F(Registry, AContradictionIsRefusedOnceTheFirstTypeIsSettled) {
+TEST_F(Registry, ARequestWithAnotherTypeIsRefusedOnceTheTypeIsDecided) {
   hears_.clear();
   registry_.begin_step({sending(kFirst, 1), listening(kSecond, 1, kOtherType)});
   hears_ = {kFirst};
@@ -206,7 +207,7 @@ TEST_F(Registry, AContradictionIsRefusedOnceTheFirstTypeIsSettled) {
   EXPECT_EQ(replies[0].reason, "type: '/x' was declared as some/msg/Type before; a topic has one type");
 }
 
-TEST_F(Registry, ARouteOnWhichMessagesMayBeUnderWayStaysOpen) {
+TEST_F(Registry, ARouteStaysOpenWhileMessagesOfALostSenderMayArrive) {
   step({sending(kFirst, 1)});
   ASSERT_EQ(opened_.size(), 1U);
   lost_ = {kFirst};
@@ -233,7 +234,7 @@ TEST_F(Registry, ALostMemberIsForgotten) {
   EXPECT_TRUE(registry_.end_step().empty());
 }
 
-TEST_F(Registry, MoreTargetsMayBeAddedAndTheSourceIsTheAsker) {
+TEST_F(Registry, AMemberMayAddTargetsAndOnlyForItself) {
   EXPECT_EQ(step({sending(kFirst, 1, {"b"})}).at(0).unheard, std::vector<std::string>{"b"});
   EXPECT_EQ(step({sending(kFirst, 2, {"gcs"})}).at(0).unheard, (std::vector<std::string>{"b", "gcs"}));
   RadioRequest false_source = sending(kFirst, 3);
@@ -243,7 +244,7 @@ TEST_F(Registry, MoreTargetsMayBeAddedAndTheSourceIsTheAsker) {
   EXPECT_EQ(table_.routes().back().targets.size(), 2U) << "a refused request changes nothing";
 }
 
-TEST_F(Registry, AMemberThatIsLostWhileTheOthersAreAwaitedIsForgotten) {
+TEST_F(Registry, AMemberThatIsLostDuringTheWaitIsForgotten) {
   step({sending(kFirst, 1), listening(kSecond, 1)});
   step();
   hears_.clear();

@@ -8,9 +8,9 @@
 
 namespace skein::cli {
 
-/// The program that the user named for `gcs`. If they named none: the strategy of the UAVs that they did not name
-/// either, if its agent program lists it as one with a program at the ground station.
-/// @param agent  the fleet's agent program, for a strategy that names no other.
+/// The program that the user named for `gcs`. If they named none: the planner that flies the UAVs for which they named
+/// none, if its agent program lists it as one with a program at the ground station.
+/// @param agent  the fleet's agent program, unless the planner names another one.
 /// @returns a strategy, with its parameters if any, or "exec:CMD"; nullopt: nothing runs there ("gcs=none" too).
 std::optional<UavPlanner> ground_program(const Planners& planners, const std::filesystem::path& agent);
 

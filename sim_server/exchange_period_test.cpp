@@ -13,7 +13,7 @@
 namespace skein::sim {
 namespace {
 
-/// The periods of interest, and some that are not multiples of a control step.
+/// Exchange periods [ticks]: usual ones, and random ones, most of which are not multiples of a control step.
 std::vector<Tick> periods() {
   std::vector<Tick> periods = {1, 20, 40, 80, 100, 200, 400};
   RandomStream random(1, "periods", 0);
@@ -21,6 +21,7 @@ std::vector<Tick> periods() {
   return periods;
 }
 
+/// A fleet of an explorer and a photographer with this exchange period.
 class Paced {
  public:
   explicit Paced(Tick period) {
@@ -53,7 +54,7 @@ class Paced {
   std::unique_ptr<Simulation> simulation_;
 };
 
-TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
+TEST(ExchangePeriod, AFleetFliesItsPathWithAnyPeriod) {
   // Climbs, then flies 24 m ahead by commands that have only a position, as patrol's way-points do.
   for (const Tick period : periods()) {
     Paced fleet(period);
@@ -86,7 +87,7 @@ TEST(ExchangePeriod, AFleetFliesItsPathAtAnyPace) {
   }
 }
 
-TEST(ExchangePeriod, AVelocityIsKeptFromCommandToCommand) {
+TEST(ExchangePeriod, AUavKeepsItsVelocityBetweenCommands) {
   for (const Tick period : periods()) {
     Paced fleet(period);
     const auto up = [](UavIndex i, double) { return TrajectoryCommand{.p_WB = {0.5, 10.0 * i, 6}}; };
@@ -99,7 +100,7 @@ TEST(ExchangePeriod, AVelocityIsKeptFromCommandToCommand) {
   }
 }
 
-TEST(ExchangePeriod, AGimbalTurnsFromRateCommandToRateCommand) {
+TEST(ExchangePeriod, AGimbalKeepsTurningBetweenRateCommands) {
   for (const Tick period : periods()) {
     Paced fleet(period);
     Simulation& simulation = fleet.simulation();
@@ -117,11 +118,11 @@ TEST(ExchangePeriod, AGimbalTurnsFromRateCommandToRateCommand) {
   }
 }
 
-TEST(ExchangePeriod, ACommandLapsesATenthOfASecondAfterTheNextWasDue) {
+TEST(ExchangePeriod, AUavHoldsATenthOfASecondAfterTheNextCommandWasDue) {
   for (const Tick period : periods()) {
     Vehicle vehicle(test::vehicle_named("photographer"), {}, kTickS, period);
     const RigidBodyState state{.p_WB = {0, 0, 50}};
-    const Tick last = 3 * period;  // of the commands, which take effect at the next control step
+    const Tick last = 3 * period;  // last command; commands take effect at the next control step
     std::optional<TrajectoryCommand> waiting;
     std::optional<Tick> lapsed;
     for (Tick tick = 0; !lapsed && tick < last + 2000; ++tick) {

@@ -67,13 +67,13 @@ class FastWriter : public Writer, private dds::DataWriterListener {
   }
 
   void write(std::span<const std::uint8_t> payload) override {
-    // For Cyclone 0.10, reliable delivery begins at a writer's first heartbeat: it drops older samples that it has
-    // received. The heartbeat that Fast DDS sends at the match often comes too early. So a heartbeat precedes each
-    // sample: Fast DDS sends one to assert liveliness.
+    // A reader of Cyclone 0.10 begins reliable delivery at a writer's first heartbeat, and drops samples that it has
+    // received before. The heartbeat that Fast DDS sends at the match often comes too early. So a heartbeat precedes
+    // each sample: Fast DDS sends one to assert liveliness.
     if (reliable_ && matches_.any_cyclone()) writer_->assert_liveliness();
     RawSample sample = padded(payload);
     if (writer_->write(&sample)) return;
-    unsent_.note(writer_->get_topic()->get_name(), fmt::format("Fast DDS does not take its {} bytes", payload.size()));
+    unsent_.note(writer_->get_topic()->get_name(), fmt::format("Fast DDS refused its {} bytes", payload.size()));
   }
 
   std::vector<ParticipantId> matched() const override { return matches_.participants(); }

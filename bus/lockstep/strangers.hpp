@@ -26,7 +26,8 @@ class Strangers {
     std::string topic;          ///< DDS name
     std::uint64_t samples = 0;  ///< so far
   };
-  /// Whether a participant is still a stranger. A program that joined a little later, or has just left, is none.
+  /// Whether a participant is outside the lock-step. A program that has joined since, or has just left, is not a
+  /// stranger.
   using IsStranger = std::function<bool(ParticipantId)>;
 
   /// Counts a sample that arrived in `step`. Beyond 256 writers, further writers' samples are counted without notices.
@@ -47,7 +48,7 @@ class Strangers {
     bool told = false;
   };
   std::map<Key, Writer> writers_;
-  std::map<std::string, std::uint64_t> more_;  ///< samples of writers beyond the number that is kept, by node
+  std::map<std::string, std::uint64_t> more_;  ///< samples of writers beyond the first 256, by node
 };
 
 /// A line for the user: in whose domain, on which topic, and that it has no effect.

@@ -40,7 +40,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kTick{50}, kGrace{1000};
 /// Timeout for the launcher's first frame. A launcher with many hosts first connects to all of them.
-constexpr milliseconds kFirstWord{60000};
+constexpr milliseconds kFirstFrame{60000};
 constexpr std::size_t kMostOfALog = 256 << 10;  // bytes in one frame
 
 std::string user_name() {
@@ -66,7 +66,7 @@ class HostService {
     }
     supervisor_.watch_too({STDIN_FILENO});
     fs::create_directories(out());
-    // Agents with user ids of their own pass through this folder to theirs.
+    // Agents that run under user ids of their own must be able to enter this folder, which contains theirs.
     fs::permissions(scratch_.path(), fs::perms::others_exec | fs::perms::group_exec, fs::perm_options::add);
   }
 
@@ -78,7 +78,7 @@ class HostService {
       listen();
       tell_news();
       flush(milliseconds(0));
-      over_ = over_ || Clock::now() - heard_ > (spoken_to_ ? kSilence : kFirstWord);
+      over_ = over_ || Clock::now() - heard_ > (has_heard_ ? kSilence : kFirstFrame);
     }
     supervisor_.end_all(kGrace);
     return kExitDone;
@@ -112,7 +112,7 @@ class HostService {
       if (n == 0) over_ = true;
       if (n <= 0) break;
       heard_ = Clock::now();
-      spoken_to_ = true;
+      has_heard_ = true;
       reader_.add({buffer.data(), static_cast<std::size_t>(n)});
     }
     try {
@@ -310,7 +310,7 @@ class HostService {
   std::map<std::string, fs::path> logs_;
   std::map<std::string, std::uintmax_t> shipped_;  ///< bytes sent of each log
   Clock::time_point heard_ = Clock::now(), told_use_ = Clock::now();
-  bool spoken_to_ = false, over_ = false;
+  bool has_heard_ = false, over_ = false;
 };
 
 }  // namespace

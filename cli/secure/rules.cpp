@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kSchema = "http://www.omg.org/spec/DDS-Security/20170801/";
 
-/// Adds a document's root.
+/// Adds the root element of a document.
 pugi::xml_node add_root(pugi::xml_document& document, const std::string& schema) {
   pugi::xml_node root = document.append_child("dds");
   root.append_attribute("xmlns:xsi") = "http://www.w3.org/2001/XMLSchema-instance";
@@ -36,7 +36,8 @@ void add_topics(pugi::xml_node rule, const char* what, const std::vector<std::st
   for (const std::string& topic : topics) add_element(list, "topic", topic);
 }
 
-/// @returns days from now as the documents write times; a day's margin each way makes time zones irrelevant
+/// The time `days` days from now (negative: ago), in the documents' format. Callers leave a margin of at least a day,
+/// so time zones do not matter.
 std::string date(int days) {
   const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()) + days * 24L * 3600;
   std::tm utc{};

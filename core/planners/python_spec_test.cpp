@@ -8,7 +8,7 @@
 namespace skein {
 namespace {
 
-TEST(PythonSpec, FileClassAndParametersAreSeparated) {
+TEST(PythonSpec, ReadsFileClassAndParameters) {
   EXPECT_EQ(python_spec("py:a.py"), (PythonSpec{"a.py", "", ""}));
   EXPECT_EQ(python_spec("py:dir.d/a.py:Orbit"), (PythonSpec{"dir.d/a.py", "Orbit", ""}));
   EXPECT_EQ(python_spec("py:a.py:x=1,y=2"), (PythonSpec{"a.py", "", "x=1,y=2"}));
@@ -22,7 +22,7 @@ TEST(PythonSpec, FileClassAndParametersAreSeparated) {
   EXPECT_THROW(python_spec("py::Orbit"), InputError);
 }
 
-TEST(PythonSpec, TablesShowNoFolders) {
+TEST(PythonSpec, WithoutFoldersRemovesTheFoldersOfTheFile) {
   EXPECT_EQ(without_folders("py:/a/b.py:C:x=/d/e"), "py:b.py:C:x=/d/e");
   for (const char* other : {"kios:file=/a/b", "py:", "py:b.py", "exec:/a/b"}) EXPECT_EQ(without_folders(other), other);
 }

@@ -22,7 +22,7 @@ TEST(RotorPower, HoversWithTheIdealPowerOfMomentumTheory) {
   }
 }
 
-TEST(RotorPower, TheInducedVelocityMeetsGlauertsEquation) {
+TEST(RotorPower, TheInducedVelocitySolvesGlauertsEquation) {
   RandomStream draw(1, "rotor_power_test", 0);
   for (int i = 0; i < 1000; ++i) {
     const double thrust_n = draw.uniform(0.1, 40.0), area_m2 = draw.uniform(0.01, 0.5);
@@ -33,7 +33,8 @@ TEST(RotorPower, TheInducedVelocityMeetsGlauertsEquation) {
   }
 }
 
-/// induced_velocity() ends when a step changes nothing: the digests of runs with batteries need the same bits.
+/// induced_velocity() stops early once a Newton step changes nothing. The result must have the same bits as that of all
+/// eight steps, because digests of runs with batteries depend on it.
 TEST(RotorPower, TheInducedVelocityIsThatOfEightStepsBitForBit) {
   RandomStream draw(2, "rotor_power_test", 0);
   for (int i = 0; i < 20'000; ++i) {
@@ -74,7 +75,7 @@ TEST(RotorPower, TheDefaultEfficiencyIsThatOfAMatrice300) {
   EXPECT_NEAR(BatteryConditions{}.efficiency, ideal / (electric - BatteryConditions{}.avionics_w), 0.02);
 }
 
-TEST(RotorPower, OurVehiclesHoverWithWhatTheirWeightCosts) {
+TEST(RotorPower, BundledVehiclesHoverWith50To800Watts) {
   for (const char* name : {"explorer", "photographer"}) {
     const VehicleConfig vehicle = load_vehicle(name, default_config_dir());
     const double power = hover_power(vehicle, {});

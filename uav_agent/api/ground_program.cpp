@@ -10,7 +10,7 @@ std::unique_ptr<GroundProgram> make_ground_program(const std::string& spec, cons
 
 AgentConfig ground_config(const Scenario& scenario) {
   AgentConfig config = agent_config(scenario, UavIndex{});
-  config.self = UavIndex(config.fleet.size());
+  config.self = UavIndex(config.fleet.size());  // no UAV
   config.vehicle = {};
   return config;
 }
