@@ -76,9 +76,9 @@ class Uav : public rclcpp::Node {
   Team team_;
   Cell home_;
   Work work_;
-  int section_ = 0;             ///< the section that this UAV inspects: the last one if it leads
-  int layer_ = 0;               ///< the layer that it inspects
-  int misses_ = 0;              ///< successive searches that found no path
+  int section_ = 0;  ///< the section that this UAV inspects: the last one if it leads
+  int layer_ = 0;    ///< the layer that it inspects
+  int misses_ = 0;   ///< successive searches that found no path
   double stage_since_s_ = 0.0, starts_at_s_ = 0.0;
   double decides_at_s_ = 0.0;  ///< next decision; after a failed search half a second later
   std::vector<rclcpp::SubscriptionBase::SharedPtr> heard_;
