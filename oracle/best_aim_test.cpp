@@ -73,7 +73,7 @@ TEST(BestAim, TheGimbalLimitsWhatCanBeShown) {
   }
 }
 
-TEST(BestAim, QualityOfWhatIsFacedFallsWithDistanceAndEndsAtTheReach) {
+TEST(BestAim, TheQualityOfAFacedSurfaceFallsWithDistanceAndEndsAtTheReach) {
   const CameraKind kind;
   const BestAim contest(kind, kDesired, RulesConfig{});
   const Vector3d n_W = -Vector3d::UnitX();

@@ -13,7 +13,7 @@
 
 namespace skein::sim {
 
-/// To what the clearance from the structure applies.
+/// The object to which the clearance from the structure applies.
 enum class Berth {
   camera,  ///< to the camera, as a point
   body,    ///< to a sphere around the body that contains box and rotors

@@ -92,7 +92,7 @@ Scene wall(const Vector3d& normal) {
   return scene;
 }
 
-TEST(Oracle, AWallIsSeenFromItsOwnSideWhateverTheNormalsSign) {
+TEST(Oracle, AWallIsSeenFromItsOwnSideForBothSignsOfTheNormal) {
   for (const double sign : {-1.0, 1.0}) {
     const Scene scene = wall({sign, 0.0, 0.0});
     const OracleReport report = consult(scene, 0.5);
@@ -354,10 +354,8 @@ TEST(Oracle, TheAnswerDependsOnlyOnItsInputs) {
   EXPECT_THROW(consult_oracle(photographer(1.0), scene, {0.5, 2.5, 0, 1}), std::invalid_argument);
 }
 
-/// Scores that another method found in these scenes, with coarser sets of viewpoints. The oracle should find a little
-/// more.
-/// Sanitizers look for mistakes in memory, which a share of the points brings to light as well; all of them take more
-/// than ten minutes there.
+/// All points; with a sanitizer only a share of them. All points would then take more than ten minutes, and a share
+/// reveals the same mistakes in memory.
 std::vector<InterestPoint> points_asked(const std::vector<InterestPoint>& points) {
   if (sanitizer().empty()) return points;
   constexpr std::size_t kShare = 20;
@@ -366,6 +364,8 @@ std::vector<InterestPoint> points_asked(const std::vector<InterestPoint>& points
   return some;
 }
 
+/// @param points, score  found by another method in these scenes, with coarser sets of viewpoints. The oracle should
+/// find a little more.
 void expect_near(const Attainable& found, double points, double score) {
   if (!sanitizer().empty()) {
     EXPECT_GT(found.points, 0U);

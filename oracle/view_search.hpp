@@ -31,8 +31,7 @@ struct Viewer {
 /// Immutable; safe from any thread.
 class ViewSearch {
  public:
-  /// @param world, viewers  must outlive this. With Berth::camera all viewers have the same clearance and
-  ///                              spaces.
+  /// @param world, viewers  must outlive this. With Berth::camera, all viewers have the same clearance and spaces.
   /// @param rules  used for visibility: whether a camera that passes through the structure is blind, and the test for
   ///               line of sight.
   ViewSearch(const RayScene& world, const std::vector<Viewer>& viewers, Berth berth, const RulesConfig& rules);

@@ -37,7 +37,7 @@ TEST(Enclosure, OpenGroundIsNotEnclosed) {
   EXPECT_FALSE(is_enclosed(RayScene(join({upright({10, 0, 5}, {4, 4, 10})})), kStart));
 }
 
-TEST(Enclosure, ARoomIsClosedWhereverItsFloorIs) {
+TEST(Enclosure, ARoomIsClosedWithItsFloorOnOrBelowTheGround) {
   for (const double width : {2.0, 20.0, 300.0}) {
     for (const double bottom : {-5.0, 0.0}) {
       EXPECT_TRUE(is_enclosed(RayScene(room(width, bottom, 0.6 * width)), kStart)) << width << ' ' << bottom;
@@ -89,7 +89,7 @@ TriangleMesh maze(int corridors, double length, bool open) {
   return join(boxes);
 }
 
-TEST(Enclosure, AMazeIsOpenWhereverItsEndIs) {
+TEST(Enclosure, AMazeWithAnOpenEndIsNotEnclosed) {
   for (const int corridors : {1, 2, 4, 8, 70}) {
     EXPECT_FALSE(is_enclosed(RayScene(maze(corridors, 12.0, true)), {0.0, 0.0, 0.16})) << corridors;
   }

@@ -63,7 +63,7 @@ TEST_F(KeptPoints, AreThoseThatWouldBeDrawn) {
   }
 }
 
-TEST_F(KeptPoints, HaveAKeyOfAllThatTheyDependOn) {
+TEST_F(KeptPoints, HaveAKeyThatCoversAllInputs) {
   const UnsampledScene scene = draw();
   sampled_or_kept(scene, cache_);
   std::vector<UnsampledScene> others(5, scene);

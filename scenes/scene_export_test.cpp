@@ -48,7 +48,7 @@ class SceneExport : public ScratchFiles {
     return options;
   }
 
-  /// A fleet of two at a member of a family.
+  /// A scenario with a scene of a family, and a fleet of two.
   Scenario scenario_of(const std::string& family, std::uint64_t scene_seed) const {
     const auto file =
         write(family + ".yaml", "scene: {family: " + family + "}\ndesired_mm_per_pixel: 1.5\nfleet:\n" +
@@ -105,7 +105,7 @@ TEST_F(SceneExport, HasTheBenchmarksLayout) {
                                              "models/a_b_c/bounding_boxes/box1.stl", "a_b_c.yaml"}));
 }
 
-TEST_F(SceneExport, AFileWhereAFolderMustBeIsNamed) {
+TEST_F(SceneExport, AFileInPlaceOfAFolderIsReported) {
   write("x", "a file");
   try {
     write_export({{"x/a", "", "new"}}, folder_, true);
@@ -116,7 +116,7 @@ TEST_F(SceneExport, AFileWhereAFolderMustBeIsNamed) {
   }
 }
 
-TEST_F(SceneExport, AnEarlierExportStaysUnlessToldOtherwise) {
+TEST_F(SceneExport, AnEarlierExportIsReplacedOnlyOnRequest) {
   const std::vector<ExportedFile> files = {{"x/a", "", "new"}, {"b", "", "new"}};
   write("b", "old");
   try {

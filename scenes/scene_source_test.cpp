@@ -1,4 +1,4 @@
-// Which scene a scenario has.
+// Tests of the scene that load_scene() returns for a scenario.
 #include "scenes/scene_source.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(SceneSource, EveryFamilyIsBuilt) {
   }
 }
 
-TEST(SceneSource, UnknownFamilyIsRefusedWithTheKnownOnes) {
+TEST(SceneSource, TheErrorForAnUnknownFamilyListsTheKnownOnes) {
   Scenario scenario;
   scenario.scene.family = "tower";
   try {
@@ -48,7 +48,7 @@ TEST(SceneSource, TheBenchmarksFilesAreLoaded) {
     for (const auto v : t) ASSERT_LT(v, scene.mesh.vertices.size());
   }
 
-  // Nothing of the second mesh is lost or moved when it is put behind the first.
+  // The second mesh follows the first one, and its triangles refer to its own vertices.
   scenario.scene.meshes.pop_back();
   const Scene first = load_scene(scenario);
   ASSERT_LT(first.mesh.triangles.size(), scene.mesh.triangles.size());

@@ -103,7 +103,7 @@ class Camera {
   template <class Judge>
   void for_each_in_view(const View& view, const RayScene& world, const Judge& judge);
   void imagine(const View& view, const RayScene& world, std::vector<float>& best_if);
-  /// The rules' sight_test(). A triangle that surely blocks the line, like the last time, saves the ray.
+  /// As the rules' sight_test(), but traces no ray if a triangle that blocked an earlier ray surely blocks this one.
   bool sees(std::uint32_t point, const Vector3d& p_WC, const Vector3d& p_W, const RayScene& world);
 
   double rated_exposure_s_;  ///< from the vehicle's file

@@ -164,7 +164,7 @@ TEST_F(CameraAtWall, KeepsTheBestQualityOfAPoint) {
   EXPECT_FALSE(c.capture(123, body_, {}, w).improved()) << "equally good is not an improvement";
 }
 
-TEST_F(CameraAtWall, BlurAndDistanceDropBelowTheThreshold) {
+TEST_F(CameraAtWall, BlurredAndDistantPointsDoNotCount) {
   Camera c = camera();
   const RayScene w = world();
   body_.v_WB = {0.0, 40.0, 0.0};
@@ -177,7 +177,7 @@ TEST_F(CameraAtWall, BlurAndDistanceDropBelowTheThreshold) {
   EXPECT_EQ(c.best()[0], 0.0F);
 }
 
-TEST_F(CameraAtWall, RemembersWhatItSawTooPoorly) {
+TEST_F(CameraAtWall, RemembersPointsThatItSawTooPoorly) {
   points_.push_back({{5.0F, 0.5F, 9.8F}, {0.0F, 0.0F, 1.0F}});   // edge-on, or nearly
   points_.push_back({{5.3F, 0.3F, 9.8F}, {-1.0F, 0.0F, 0.0F}});  // behind the wall's surface
   Camera c = camera();
@@ -230,7 +230,7 @@ TEST_F(CameraAtWall, IsBlindWhereStructureStandsBetweenItAndTheBody) {
   }
 }
 
-TEST_F(CameraAtWall, WithoutALeastScoreWhateverIsInSightCounts) {
+TEST_F(CameraAtWall, WithoutALeastScoreEachPointWithAnyQualityCounts) {
   body_.v_WB = {0.0, 40.0, 0.0};
   rules_.min_point_score = 0.0;
   const Capture capture = camera().capture(0, body_, {}, world());
@@ -254,7 +254,7 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
                       {"explorer", 90.0, {30, 48, 64, 75}},
                       {"photographer", 0.0, {0, 0, 16, 32}},
                       {"photographer", 90.0, {7, 18, 26, 42}}};
-  // Points on the surface of a ball around the camera, so dense that each pixel of the picture has some.
+  // The test draws rays within the picture, and counts those that hit the body.
   RandomStream random(5, "camera_test", 1);
   for (const Row& row : rows) {
     const VehicleConfig vehicle = load_vehicle(row.vehicle, source_path("config"));
@@ -304,7 +304,7 @@ TEST(Camera, RayThatEndsAtThePointMissesMoreThanHalf) {
   EXPECT_NEAR(100.0 * seen / free_views, 45.0, 3.0);
 }
 
-TEST_F(CameraAtWall, ReferenceNeedsASurfaceShortBeforeThePoint) {
+TEST_F(CameraAtWall, TheReferenceNeedsASurfaceShortlyBeforeThePoint) {
   rules_.ray_ends_at_point = true;
   const auto seen_at = [&](float x) {
     points_ = {{{x, 0.1F, 9.8F}, {-1.0F, 0.0F, 0.0F}}};

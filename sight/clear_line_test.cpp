@@ -1,4 +1,4 @@
-// The true clearance, densely sampled, of straight lines whose clearance was tested.
+// Compares is_clear_line() with the true clearance of each line, densely sampled.
 #include "sight/clear_line.hpp"
 
 #include <gtest/gtest.h>

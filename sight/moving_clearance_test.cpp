@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostM = 25.0;
 
-TEST(MovingClearance, AnswersAsRaySceneDoes) {
+TEST(MovingClearance, EqualsTheClearanceOfRayScene) {
   for (std::uint64_t world = 0; world < 10; ++world) {
     const RayScene rays(test::random_triangles(200, world));
     RandomStream random(world, "moving_clearance_test", 0, 0);
@@ -28,7 +28,7 @@ TEST(MovingClearance, AnswersAsRaySceneDoes) {
   }
 }
 
-TEST(MovingClearance, IsTheGreatestValueInAnEmptyWorld) {
+TEST(MovingClearance, IsTheUpperLimitInAnEmptyWorld) {
   const RayScene rays{TriangleMesh()};
   MovingClearance clearance(kMostM);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(clearance.at(rays, {1.0 * i, 2.0, 3.0}), kMostM);

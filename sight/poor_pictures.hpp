@@ -17,7 +17,7 @@ struct PoorSight {
   bool operator==(const PoorSight&) const = default;
 };
 
-/// Not thread-safe; cameras may share it while nobody changes it.
+/// Not thread-safe; cameras in several threads may read it while no thread changes it.
 class PoorPictures {
  public:
   /// @param points  number of interest points in the scene.

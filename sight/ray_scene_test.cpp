@@ -94,7 +94,7 @@ TEST(RayScene, RefusesTriangleWithoutVertex) {
   EXPECT_THROW(RayScene{mesh}, std::runtime_error);
 }
 
-TEST(RayScene, SegmentEndsAtItsEnd) {
+TEST(RayScene, ASegmentMeetsNothingBeyondItsEnd) {
   TriangleMesh mesh;
   add_box(mesh, {10.0, 0.0, 10.0}, {1.0, 20.0, 20.0});
   const RayScene world(mesh);

@@ -1,4 +1,4 @@
-// What the readers of all mesh formats check. Frame W; metres. Pure; any thread.
+// Checks that the readers of all mesh formats share. Frame W; metres. Pure; any thread.
 #pragma once
 
 #include <filesystem>

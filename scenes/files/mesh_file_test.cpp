@@ -139,7 +139,7 @@ TEST_F(MeshFile, HeaderAndAttributesOfABinaryFileAreIgnored) {
   }
 }
 
-TEST_F(MeshFile, AnErrorInAsciiHasItsLine) {
+TEST_F(MeshFile, AnErrorInAsciiNamesItsLine) {
   const std::string ascii = ascii_stl(kTriangles);
   const auto wrong = [&](const std::string& old, const std::string& replacement) {
     std::string text = ascii;

@@ -1,6 +1,6 @@
 // Check model files before Assimp reads them, and write them in the simplest form with the same triangles. Assimp hangs
 // or crashes on some damaged PLY files, recurses without a bound where nodes of a COLLADA file contain each other, and
-// takes a word that is not a number for one.
+// accepts words that are not numbers as numbers.
 #pragma once
 
 #include <filesystem>

@@ -106,7 +106,7 @@ std::string with(std::string bytes, const std::string& old, const std::string& r
   return bytes.replace(bytes.find(old), old.size(), replacement);
 }
 
-TEST_F(PointFile, ReadsWhateverLayoutThePointsHave) {
+TEST_F(PointFile, ReadsPointsInEachLayout) {
   expect_points(read_points(write("padded.pcd", padded())));
   expect_points(read_points(write("padded.pcd", padded("21"))));
   expect_points(read_points(write("ascii.pcd", ascii())));
@@ -228,7 +228,7 @@ TEST_F(PointFile, WrittenPointsReadBackBitForBit) {
   EXPECT_EQ(std::memcmp(read.data(), points.data(), points.size() * sizeof points[0]), 0);
 }
 
-TEST_F(PointFile, TheBenchmarksFilesAreWrittenAsTheyAre) {
+TEST_F(PointFile, WrittenPointsHaveTheHeaderOfTheBenchmarksFile) {
   const char* assets = std::getenv("SKEIN_ASSETS");
   if (!assets) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   const auto file = std::filesystem::path(assets) / "models" / "mbs" / "mbs_interest_points.pcd";

@@ -1,6 +1,6 @@
-// Checks what is_flyable() promises of a world with a second implementation that shares nothing with it: it uses
-// neither rays nor a map, but a grid of cells of 0.3 m, filled from above. It is necessary, not sufficient: it does not
-// check whether views are open.
+// Checks what is_flyable() promises of a world. The test is an independent second implementation: it uses neither rays
+// nor a map, but a grid of cells of 0.3 m, filled from above. It checks necessary conditions only: not, for example,
+// whether views are open.
 #include <gtest/gtest.h>
 
 #include <algorithm>

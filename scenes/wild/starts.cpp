@@ -31,7 +31,7 @@ bool has_room(const RayScene& world, const Vector2d& p_W, double radius) {
   return !world.first_hit(foot, Vector3d::UnitZ(), kHeadroom, {.ground = false, .uavs = false});
 }
 
-/// How the starts of a fleet are arranged.
+/// Arrangement of a fleet's starts.
 enum class Manner { open, apart, wall, canopy, below };
 
 Manner draw_manner(RandomStream& random, bool blind) {

@@ -51,7 +51,7 @@ TEST(Caution, ChangesNothingWithoutUncertaintyWindAndBattery) {
 /// To the next step of 5 cm.
 double rounded_up_m(double error_m) { return 0.05 * std::ceil(error_m / 0.05 - 1e-9); }
 
-TEST(Caution, KeepsFartherOffByCovarianceAndWindUpToABound) {
+TEST(Caution, ClearanceGrowsWithCovarianceAndWindUpToABound) {
   Told uav;
   const double sigmas = uav.flight_config.drift_sigmas, pushed_m = uav.flight_config.wind_error_s * 8.0;
   uav.uncertainty.position_m = {0.1, 0.1, 0.2};
@@ -117,7 +117,7 @@ TEST(Caution, KeepsOffAnotherUavByBothErrorsAlongEachAxis) {
 
 // The test draws errors of odometry and measures how far the position drifts within look_s, the time in which a LiDAR
 // sees everything again. The UAV must keep off structure by this drift.
-TEST(Caution, CountsWithTheDriftSinceStructureWasSeen) {
+TEST(Caution, AllowsForTheDriftSinceStructureWasSeen) {
   for (int seed = 0; seed < 12; ++seed) {
     RandomStream draw(static_cast<std::uint64_t>(seed), "caution_test", 1);
     Told uav;
@@ -146,7 +146,7 @@ TEST(Caution, CountsWithTheDriftSinceStructureWasSeen) {
   }
 }
 
-TEST(Caution, CountsWithALostFixAndForAWhileAfterIt) {
+TEST(Caution, AllowsForALostFixAndForAWhileAfterIt) {
   Told uav;
   OdometryConditions& odometry = uav.agent.odometry;
   odometry.horizontal_sigma_m = odometry.vertical_sigma_m = 0.1;
@@ -178,7 +178,7 @@ TEST(Caution, FliesSlowerInGustsAndNotInASteadyWind) {
   }
 }
 
-TEST(Caution, GoesHomeByTheChargeTheWayAndTheWind) {
+TEST(Caution, MustLandInTimeForItsChargeItsWayAndTheWind) {
   // Half the charge is gone in 100 s of 0.5 missions of 400 s: a second costs 0.005.
   const auto lands_at = [](const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) {
     Told uav;

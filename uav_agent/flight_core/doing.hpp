@@ -1,4 +1,4 @@
-// What the flight core does at present, for display only; onboard/activity.hpp puts it into words. Frame W.
+// The flight core's present activity, for display only; onboard/activity.hpp puts it into words. Frame W.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,8 @@ namespace skein::agent {
 
 /// A UAV that begins above this height was restarted in flight. Chosen.
 inline constexpr double kBeginsInFlightM = 2.0;
-/// A UAV that sees flies at least at kCreepMps where little space ahead is proved free, which is examined in steps of
-/// at most kProvedStepM. Chosen.
+/// A UAV with a working LiDAR flies at least at kCreepMps, even if little of the path ahead is proved free. It examines
+/// the path ahead in steps of at most kProvedStepM. Chosen.
 inline constexpr double kCreepMps = 0.5, kProvedStepM = 1.0;
 /// A UAV that is farther from its start has left it. Chosen.
 inline constexpr double kLeftStartM = 2.5;

@@ -75,7 +75,7 @@ struct WantsOnePlaceAfterTheOther : CoreUav {
 
 // The last goal may end in the exchange in which a recovery begins, above all after the program was stopped for some
 // seconds, because the UAV has then made no progress for long.
-TEST(FlightCore, EachOutcomeIsHeardWhenTheStrategyDecides) {
+TEST(FlightCore, TheStrategyReceivesEachOutcomeWhenItDecides) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     WantsOnePlaceAfterTheOther uav(seed);
     for (int i = 0; i < 3000; ++i) {
@@ -289,7 +289,7 @@ struct HeldInACorridor : CoreUav {
   std::int64_t id = 0;
 };
 
-TEST(FlightCore, AUavThatAnotherOneHoldsGoesAway) {
+TEST(FlightCore, AUavThatIsHeldByAnotherOneFliesAway) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     HeldInACorridor uav(seed);
     RandomStream random(seed, "goals", 0);

@@ -1,5 +1,5 @@
-// Flights home, with a whole flight core: when a UAV gives up such a flight, and that its strategy's goals stay in
-// force.
+// Flights home, with a whole flight core. The tests check when a UAV gives up such a flight, and that its strategy's
+// goals stay in force.
 #include <gtest/gtest.h>
 
 #include <algorithm>

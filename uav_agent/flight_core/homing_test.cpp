@@ -42,7 +42,7 @@ TEST(Homing, IsDueWhenCapturesHaveWaitedForLong) {
   EXPECT_TRUE(uav.homing.due(uav.input()));
 }
 
-TEST(Homing, AGivenUpWayHomeIsDueLaterOrAtTheEnd) {
+TEST(Homing, AFlightHomeThatWasGivenUpIsDueAgainLaterAndAtTheEnd) {
   ComingHome uav({40.0, 0.0, 10.0});
   uav.undelivered = 3;
   uav.wait(uav.config.deliver_every_s + 1.0);
@@ -71,7 +71,7 @@ TEST(Homing, IsDueInTimeForTheWay) {
   }
 }
 
-TEST(Homing, AUavThatDeliversWhereItIsNeedNotLeave) {
+TEST(Homing, AUavThatDeliversFromItsPlaceNeedNotLeave) {
   ComingHome uav({40.0, 0.0, 10.0});
   uav.linked = true;
   uav.undelivered = 10;

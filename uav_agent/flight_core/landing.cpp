@@ -76,7 +76,7 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
     if (!may_trust_more && !was_held_above(here_W)) return begin_descent(here_W, in, steering);
   }
   find_sites(in);
-  // Into the box in which it started, a UAV gets on the way on which it left it.
+  // A UAV gets back into the box in which it started only along the way by which it left it.
   const std::optional<Vector3d> out_W = filter_.way_out_W(in.boxes);
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < sites_W_.size(); ++i) {

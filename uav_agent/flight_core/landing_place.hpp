@@ -1,5 +1,6 @@
-// Where a UAV lands. UAVs may start closer to each other than the safety filter lets them land: then each would hold
-// the others in the air, until their batteries are empty. So all of them land on a larger copy of their starting grid.
+// Chooses where a UAV lands. UAVs may start closer to each other than the safety filter lets them land. Then each would
+// hold the others in the air until their batteries are empty, so all of them land on a larger copy of their starting
+// grid.
 // Each UAV computes all places from the fleet's starts and its own apart_m. These differ by decimetres between UAVs, so
 // the caller adds some room.
 // Frame W.   Units: metres.   Pure; threads: any.

@@ -156,7 +156,7 @@ TEST(Navigator, WithoutItsLidarItPlansThroughProvedSpaceAlone) {
 }
 
 // Another UAV hovers right on the straight line: there is room to fly about it.
-TEST(Navigator, FindsAWayAboutAUavThatStays) {
+TEST(Navigator, FindsAWayAroundAUavThatStays) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "stays", 0);
     InAClearing uav({-18.0, 0.0, 10.0});
@@ -176,7 +176,7 @@ TEST(Navigator, FindsAWayAboutAUavThatStays) {
 
 // The map has one distance to structure for each cube. A path along the border of two cubes, and a UAV a few
 // centimetres beside it, must not look like structure that was not there before.
-TEST(Navigator, SeesNothingNewWhereNothingIsNew) {
+TEST(Navigator, FindsNoNewStructureWhereThereIsNone) {
   std::size_t reached = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "nothing_new", 0);

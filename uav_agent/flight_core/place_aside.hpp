@@ -1,5 +1,5 @@
-// Where a UAV may climb if structure beside its start keeps it from climbing straight up. Beside a wall that is nearer
-// than the safety filter allows, each step up would bring it nearer to the wall's higher parts.
+// Finds places from which a UAV may climb if structure beside its start keeps it from climbing straight up. Beside a
+// wall that is nearer than the safety filter allows, each step up would bring it nearer to the wall's higher parts.
 // Frame W.   Units: SI.   Pure; threads: any.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Where a UAV that cannot or need not plan a path flies: straight to the best of the places near it.
+// Finds the best of the places near a UAV to which it can fly straight, if it cannot or need not plan a path.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a UAV does if it can reach none of its goals. The flight core tries an ordered list of recovery behaviours, one
+// Recovery of a UAV that can reach none of its goals. The flight core tries an ordered list of recovery behaviours, one
 // after the other, until the UAV reaches a goal again: look around, so that the LiDAR proves more space free; approach
 // the goal that it missed; fly elsewhere; climb; fly back along its own trail. If the UAV's position no longer counts
 // as free, because of structure discovered meanwhile, the UAV flies back at once; if that does not move it, straight to
@@ -22,11 +22,11 @@ class Recovery {
 
   /// Adds the UAV's position to its trail. Call it once per exchange, before the other functions.
   void update(const PlannerInput& in);
-  /// Call it when a goal of the planner has ended to which there was a path. If the UAV is away from where it last had
+  /// Call it when a goal of the planner to which there was a path has ended. If the UAV is away from where it last had
   /// to recover, the next recovery starts with the first behaviour: a goal right there is no progress.
   void progress(const PlannerInput& in);
-  /// Starts the next behaviour that is possible here. @param held  what holds the UAV; if it
-  /// is another UAV, to look around or to approach the goal behind it does not help
+  /// Starts the next behaviour that is possible here. @param held  what holds the UAV. If it is another UAV, begin()
+  /// skips two behaviours that do not help: to look around, and to approach the goal behind that UAV.
   void begin(const PlannerInput& in, const Held& held);
   /// Runs one exchange. @returns whether the behaviour has ended, so that the planner's goals count again.
   bool step(const PlannerInput& in, const Held& held, Steering& steering);

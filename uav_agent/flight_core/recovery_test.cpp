@@ -69,7 +69,7 @@ TEST(Recovery, LooksAroundFirst) {
   EXPECT_LT(waits.took_s, looks.took_s);
 }
 
-TEST(Recovery, ThenGoesElsewhereAndUp) {
+TEST(Recovery, GoesElsewhereAfterLookingAround) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream random(seed, "elsewhere", 0);
     const Vector3d missed_W(random.uniform(-10.0, 10.0), random.uniform(-10.0, 10.0), 60.0);
@@ -222,7 +222,7 @@ struct ShutIn : Recovers {
   double top_m = 0.0, low_m = 0.0;
 };
 
-TEST(Recovery, AUavThatStructureHasShutInGoesBackWhereItCame) {
+TEST(Recovery, AUavShutInByStructureFliesBackAlongItsTrail) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     ShutIn uav(seed % 3 == 0 ? Role::photographer : Role::explorer, seed, false);
     ASSERT_NEAR(uav.state.p_WB.z(), uav.top_m, 0.2) << "seed " << seed;
@@ -239,7 +239,7 @@ TEST(Recovery, AUavThatStructureHasShutInGoesBackWhereItCame) {
 }
 
 // LiDARs of other UAVs may have taken this UAV for structure, all along the way that it came.
-TEST(Recovery, AUavWhoseWayBackIsTakenForStructureGetsAwayFromIt) {
+TEST(Recovery, AUavWhoseTrailIsMappedAsStructureGetsAwayFromIt) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "taken_for_structure", 0);
     Recovers uav(seed % 2 == 0 ? Role::explorer : Role::photographer);

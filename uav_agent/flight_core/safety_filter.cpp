@@ -22,12 +22,12 @@ constexpr double kPeerDelayS = 0.1;
 constexpr double kPeerBrakesMps2 = 2.0;
 /// Commanded setpoints are means over this time, so braking sets in gradually.
 constexpr double kPeerSmoothS = Tracker::Config().smoothing_s;
-/// For so long, a UAV that is told to brake may still accelerate: commands lag, and the UAV lags behind its commands.
+/// A UAV that is told to brake may still accelerate for this time: commands lag, and the UAV lags behind its commands.
 /// Formula: a mean lags by half of its time.
 constexpr double kPeerLagS = kPeerDelayS + 0.5 * kPeerSmoothS;
-/// So much later than its commands say, a UAV may brake, and it may fly faster than they say: controllers overshoot.
-/// Two UAVs that speed up towards each other in the same exchange would otherwise both use up the same room. Chosen in
-/// drawn encounters with bodies that follow 0.2 and 0.25 s late (docs/flight-safety.md).
+/// A UAV may brake this much later than its commands say, and may fly faster than they say, because controllers
+/// overshoot. Without this allowance, two UAVs that speed up towards each other in the same exchange would both use up
+/// the same room. Chosen in drawn encounters with bodies that follow 0.2 and 0.25 s late (docs/flight-safety.md).
 constexpr double kOwnLagS = 0.2;
 constexpr double kRestsMps = 0.2;   ///< a UAV that is not faster is at rest; chosen
 constexpr double kFarM = 40.0;      ///< UAVs whose reach is farther away are not considered; chosen
@@ -36,7 +36,7 @@ constexpr double kClimbsMps = 1.0;  ///< speed for which clear_up_to() checks a 
 /// known state, because its reported velocity lags by half of kPeerSmoothS. Measured over random flights: up to 0.48 m.
 constexpr double kUnheardM = 0.5;
 constexpr double kAboveStartM = 30.0;  ///< up to this height, space above the start is assumed to be free; chosen
-constexpr double kOutOfBoxM = 0.2;     ///< so far beyond what the filter demands, a UAV is out of a box; chosen
+constexpr double kOutOfBoxM = 0.2;     ///< a UAV this far beyond what the filter demands is out of a box; chosen
 constexpr double kOnGroundM = 0.25;    ///< a slow UAV whose centre is no higher above its start stands; chosen
 /// If the planned speed and the present one are not safe, the filter tries this speed. Chosen.
 double slower_mps(double speed_mps) { return 0.9 * speed_mps - 0.02; }
@@ -191,7 +191,7 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
     const double age_s = peer.visible ? 0.0 : seconds(facts.tick - *peer.seen);
     if (age_s > config_.peer_memory_s) continue;
     Vector3d p_W = peer.p_W, v_W = peer.v_W;
-    // A UAV that stands on the ground beside it, too, does not come nearer by climbing past its reported height.
+    // If this UAV stands beside it, climbing past the height that the peer reports must not count as coming nearer.
     const bool on_ground = stands(peer);
     if (on_ground) p_W.z() = std::min({p_W.z(), agent_.fleet[peer.uav].p_WB_start.z(), now_W_.z()});
     if (trust_ == Trust::start && (on_ground || is_at_start(peer))) p_W.z() = now_W_.z();

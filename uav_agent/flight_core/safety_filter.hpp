@@ -74,7 +74,7 @@ class SafetyFilter {
   /// Place straight above the start at which this UAV has left the boxes in which it starts; nullopt: it starts in no
   /// box, or does not assume_boxes().
   std::optional<Vector3d> way_out_W(const std::vector<OrientedBox>& boxes) const;
-  /// What the filter assumes for a UAV that must get down: its battery is nearly empty, or it gave up a takeoff.
+  /// The filter's assumptions for a UAV that must get down: its battery is nearly empty, or it gave up a takeoff.
   enum class Trust : std::uint8_t {
     proved,   ///< the usual rules
     start,    ///< unknown space counts as free, and UAVs at their starts do not keep this UAV from sinking beside them
@@ -85,13 +85,14 @@ class SafetyFilter {
   Trust trust() const { return trust_; }
   /// Call it before another takeoff: until the UAV has had room in flight again, it needs as little as at its start.
   void begin_anew() { had_room_ = false; }
-  /// What slowed the UAV down in the last step(), or would hold it by the last clear_up_to().
+  /// The reason why the last step() slowed the UAV down, or why it would be held according to the last clear_up_to().
   const Held& held() const { return held_; }
   /// Whether this UAV may rest at p_W (centre): all space about it that the invariant needs is proved free.
   bool proved(const Vector3d& p_W, const WorldMap& map, const std::vector<OrientedBox>& boxes) const;
   /// The same, whatever the filter assumes.
   bool proved_free(const Vector3d& p_W, const WorldMap& map) const;
-  /// What would hold this UAV if it flew slowly from where it is through some places; nothing, if it could.
+  /// The reason why this UAV would be held if it flew slowly from where it is through some places; By::nothing: it
+  /// would not be held.
   Held would_hold(const std::vector<Vector3d>& corners_W, const Facts& facts);
   /// Whether this UAV, which stands on the ground, could climb straight up to a height [m] without being held.
   bool clear_up_to(double height_m, const Facts& facts);

@@ -12,7 +12,7 @@ namespace {
 
 // Of two UAVs that stand side by side, one seems higher than the other, because their odometry errs. That must not keep
 // the other one on the ground. A UAV that hovers above the ground, or moves, must.
-TEST(SafetyFilter, AUavClimbsBesideOneThatStandsWhateverHeightThatOneReports) {
+TEST(SafetyFilter, AUavClimbsBesideAStandingUavThatReportsAWrongHeight) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     RandomStream random(seed, "stands_beside", 0);

@@ -49,8 +49,9 @@ TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
   EXPECT_GT(flown_m, 1000.0) << "a UAV that does not fly would prove nothing";
 }
 
-// The UAV sees an obstacle within its braking distance. The filter cannot change the braking path, but everything else.
-TEST(SafetyFilter, AUavApproachesNoFurtherToAnObstacleThatAppearsAhead) {
+// The UAV sees an obstacle within its braking distance. The filter can no longer change the braking path, but it can
+// keep the UAV from coming nearer than that.
+TEST(SafetyFilter, ComesNoNearerToANewObstacleThanItsBrakingPath) {
   int broken = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     RandomStream random(seed, "appears", 0);

@@ -45,7 +45,7 @@ TEST(ToldSpace, AMapOfAnotherPlaceKeepsNoUavOnTheGround) {
   }
 }
 
-TEST(ToldSpace, AUavThatHearsNewsWaits) {
+TEST(ToldSpace, AUavThatReceivesMapUpdatesWaits) {
   Stands uav(1);
   for (int i = 0; i < 20; ++i) {
     uav.listen(20.0);
@@ -54,7 +54,7 @@ TEST(ToldSpace, AUavThatHearsNewsWaits) {
   }
 }
 
-TEST(ToldSpace, AUavAssumesNothingAnyMoreOnceItIsInProvedSpace) {
+TEST(ToldSpace, AUavStopsAssumingFreeSpaceOnceItIsInProvedSpace) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Stands uav(seed);
     uav.listen(uav.config.alone_s + 1.0);

@@ -90,7 +90,7 @@ TEST(StartInBox, AUavThatReceivesNoMapClimbsStraightUpOutOfTheBox) {
 }
 
 // The UAV was restarted in the box, or had climbed a little before its explorer was lost.
-TEST(StartInBox, AUavThatHoversInTheBoxFindsTheWayUpToo) {
+TEST(StartInBox, AUavThatHoversInTheBoxGetsOutOfIt) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     RandomStream random(seed, "boxed_hovers", 0);
     BoxedUav uav(seed % 2 == 0, random, random.uniform(2.5, 4.5));

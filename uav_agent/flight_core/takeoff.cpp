@@ -13,14 +13,14 @@ constexpr double kLowestTopM = 4.0;   ///< least height of the climb; chosen
 constexpr double kClimbLayerM = 2.0;  ///< difference between the heights to which two UAVs climb; chosen
 constexpr double kCrowdM = 6.0;       ///< UAVs whose starts are nearer than this lift off one after the other; chosen
 constexpr double kClearM = 3.0;       ///< once a UAV is this far from its start, the next one may lift off; chosen
-constexpr double kStartPatienceS = 6.0;  ///< longest wait for each UAV before; then it is taken to be broken; chosen
+constexpr double kStartPatienceS = 6.0;  ///< wait for each UAV that comes first; later it counts as broken; chosen
 constexpr double kRisenM = 1.2;          ///< so high above its start, a UAV may begin to work; chosen
 constexpr double kClimbGainM = 0.3;      ///< a UAV that gains less height has stalled; chosen
 constexpr double kStepAsideM = 0.3;      ///< step of a UAV that stalled; chosen: more than half a cube of the map
 constexpr double kLowAsideM = 0.3;   ///< least height above the start for a flight to another place to climb; chosen
 constexpr int kMostGiveWays = 3;     ///< a UAV that could begin to work gives way no more often; chosen
 constexpr double kOffGroundM = 0.2;  ///< setpoints that are this far above the start keep a UAV up; chosen
-constexpr double kGivesWayS = 8.0;   ///< for so long, a UAV that gives way to others does not try again; chosen
+constexpr double kGivesWayS = 8.0;   ///< a UAV that gave way to others does not try again for this time; chosen
 
 }  // namespace
 
@@ -161,7 +161,7 @@ bool Takeoff::climbs_aside(const PlannerInput& in, Steering& steering) {
   return true;
 }
 
-/// What drift of the position makes necessary. @returns whether the UAV recovers.
+/// Steps aside, or sinks back to the ground, if drift of the position requires that. @returns whether the UAV does.
 bool Takeoff::recovers_from_drift(const PlannerInput& in, Steering& steering) {
   // The clearance for drift may reach an unproved cube right above the UAV, which its LiDAR never sees: step aside.
   const bool looked = navigator_.sees() && stalled_s(in) > config_.look_s;

@@ -22,7 +22,7 @@ class Takeoff {
       : config_(config), agent_(agent), filter_(filter), navigator_(navigator), landing_(landing) {}
 
   /// Runs one exchange of a UAV that is on the ground or climbs, and knows its boxes.
-  /// @returns the phase afterwards; `over` once the UAV may begin to work, either since it has climbed or since it was
+  /// @returns the phase afterwards; `over` once the UAV may begin to work, because it has climbed or because it was
   ///   restarted in flight.
   Phase step(const PlannerInput& in, Steering& steering);
   /// Prepares another takeoff, of a UAV that has landed.

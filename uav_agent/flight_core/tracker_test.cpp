@@ -243,7 +243,7 @@ TEST(Tracker, NeverCommandsTheOriginBecauseItMeansNoPosition) {
   for (int i = 0; i < 5; ++i) EXPECT_GE(uav.tracker.step(uav.state, kDtS)->p_WB.norm(), 0.01);
 }
 
-TEST(Tracker, ASetpointPassesWithinTheLimits) {
+TEST(Tracker, ASetpointOfThePlannerIsClampedToTheLimits) {
   Tracker tracker(limits());
   tracker.fly_to({.p_WB = {1.0, 2.0, 3.0}, .yaw = 0.5, .v_WB = {20.0, 0.0, 0.0}, .a_WB = {0.0, -9.0, 0.0}});
   const auto command = *tracker.step({}, kDtS);

@@ -17,7 +17,7 @@ std::uint64_t drawn_key(RandomStream& random, int half) {
   return x | y << 21 | z << 42;
 }
 
-TEST(BlockTable, AnswersAsAMapDoesWhateverItsSize) {
+TEST(BlockTable, AnswersLikeAStdMapAtEverySize) {
   for (std::uint64_t world = 0; world < 40; ++world) {
     RandomStream random(world, "blocks", 0);
     BlockTable<int> table;
@@ -38,7 +38,7 @@ TEST(BlockTable, AnswersAsAMapDoesWhateverItsSize) {
   }
 }
 
-TEST(BlockTable, AfterClearingItIsAsOneThatWasJustMade) {
+TEST(BlockTable, AClearedTableBehavesLikeANewOne) {
   RandomStream random(3, "cleared_blocks", 0);
   BlockTable<int> table;
   std::map<std::uint64_t, int> all;

@@ -19,8 +19,8 @@ namespace skein::agent {
 
 class ClutterFilter {
  public:
-  /// Removes the unconfirmed ones of the points at which beams ended.
-  /// @param scan_s  time of the scan   @param p_WL  where the LiDAR was
+  /// Removes the points that are not confirmed.
+  /// @param scan_s  time of the scan   @param p_WL  where the LiDAR was   @param hits_W  points at which beams ended
   void keep_confirmed(double scan_s, const Vector3d& p_WL, const WorldMap& map, std::vector<Eigen::Vector3f>& hits_W);
   /// Doubts the newly occupied cubes. Call it after these points were entered into the map.
   void doubt_new(WorldMap& map);

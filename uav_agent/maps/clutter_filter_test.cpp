@@ -34,7 +34,7 @@ Eigen::Vector3f drawn_W(RandomStream& random, double reach_m) {
   return {along(), along(), along()};
 }
 
-TEST(ClutterFilter, LoneReturnsLeaveTheMapAsItWas) {
+TEST(ClutterFilter, LoneReturnsRarelyMakeACubeOccupied) {
   RandomStream random(1, "clutter", 0);
   Filtered rain;
   std::size_t drops = 0;

@@ -45,7 +45,7 @@ void expect_exact(DistanceField& field, const std::vector<Cell>& occupied) {
   }
 }
 
-TEST(DistanceField, IsTheDistanceToTheNearestOfAllCellsAsTheyComeAndGo) {
+TEST(DistanceField, IsTheDistanceToTheNearestCellAsCellsComeAndGo) {
   for (std::uint64_t world = 1; world <= 6; ++world) {
     RandomStream random(world, "distance", 0);
     DistanceField field(kCubeM, kReachM);
@@ -67,7 +67,7 @@ TEST(DistanceField, IsTheDistanceToTheNearestOfAllCellsAsTheyComeAndGo) {
   }
 }
 
-TEST(DistanceField, WorksOutABlockAgainOnlyIfSomethingNearItHasChanged) {
+TEST(DistanceField, ComputesABlockAgainOnlyIfSomethingNearItHasChanged) {
   DistanceField field(kCubeM, kReachM);
   int asked = 0;
   const auto occupied_in = [&](const Cell& block, std::vector<Cell>& cells) {
@@ -87,7 +87,7 @@ TEST(DistanceField, WorksOutABlockAgainOnlyIfSomethingNearItHasChanged) {
   EXPECT_EQ(asked, 3) << "it asks for both blocks that have changed";
 }
 
-TEST(DistanceField, ReachesNoFartherThanABlock) {
+TEST(DistanceField, RejectsAReachOfLessThanACellOrMoreThanABlock) {
   EXPECT_THROW(DistanceField(0.5, 4.5), std::invalid_argument);
   EXPECT_THROW(DistanceField(0.5, 0.2), std::invalid_argument);
 }

@@ -56,11 +56,11 @@ namespace skein::agent {
 
 inline constexpr double kHaloM = 1.0;  ///< all space this near to a body's tube must be free; chosen
 
-/// Which thin member may stand unseen in a place that is called free, and with which probability.
+/// The thin member that may stand unseen in a place that is called free, and the accepted probability of that.
 struct FreeCriterion {
   double member_width_m = 0.05;  ///< chosen
   /// m: the length within kHaloM of a body's tube (radius 0.63 m) of a member 2 m long that touches the tube. It varies
-  /// among drawn members; Measured: this m is the one whose 1 / m^2 equals the mean of 1 / m^2 over them.
+  /// among drawn members. Measured: this m is the one whose 1 / m^2 equals the mean of 1 / m^2 over them.
   double member_in_halo_m = 1.69;
   double unseen_p = 1e-3;    ///< accepted probability P that the member was missed; chosen
   double no_return_p = 0.0;  ///< q above: probability that a hit returns nothing; less than 1

@@ -96,7 +96,7 @@ TEST(UnseenMembers, LostReturnsCountAsFewerBeams) {
     losing.no_return_p = q;
     RandomStream random(4, "lost", 0);
     BeamEvidence all, part;
-    for (int beam = 0; beam < 160; ++beam) {  // of two places and of all sides in turn
+    for (int beam = 0; beam < 160; ++beam) {  // every third along x, the others from all sides
       const Vector3d direction = beam % 3 == 0 ? Vector3d::UnitX() : drawn_line(random);
       const int axis = nearest_axis(direction);
       all.add(BeamEvidence(direction.cast<float>(), axis, kPerM2));
@@ -153,7 +153,7 @@ TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
   EXPECT_TRUE(evidence.full());
 }
 
-TEST(BeamEvidence, IsDueOnceItHasTheBeamsOfItsReminder) {
+TEST(BeamEvidence, IsDueOnceItsBeamsReachTheReminder) {
   BeamEvidence evidence;
   EXPECT_TRUE(evidence.due());
   evidence.remind_at(10.0);
@@ -166,9 +166,9 @@ TEST(BeamEvidence, IsDueOnceItHasTheBeamsOfItsReminder) {
   EXPECT_FALSE(evidence.due());
 }
 
-/// Beams come from one place up to all sides. The test adds one at a time, around the number at which the judgement
-/// changes.
-TEST(FreeJudge, JudgesAsTheProbabilityDoes) {
+/// Beams come from one direction, from a cone around it, or from all sides. The test compares the two after each beam,
+/// until well after the number at which the judgement changes.
+TEST(FreeJudge, AgreesWithTheUnseenProbability) {
   std::size_t asked = 0, proved = 0;
   for (const auto& [unseen_p, no_return_p] : {std::pair{1e-2, 0.0}, {1e-3, 0.0}, {1e-3, 0.3}, {1e-4, 0.0}}) {
     const FreeCriterion criterion{.unseen_p = unseen_p, .no_return_p = no_return_p};

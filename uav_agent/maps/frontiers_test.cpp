@@ -40,7 +40,7 @@ std::set<Id> brute_force(const VoxelGrid& grid) {
   return all;
 }
 
-TEST(Frontiers, KeepUpWithWhatBruteForceFinds) {
+TEST(Frontiers, EqualThoseOfABruteForceSearchAfterEachUpdate) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     VoxelGrid grid = grid_of(8.0);
     Frontiers frontiers;

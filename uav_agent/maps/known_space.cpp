@@ -226,7 +226,7 @@ bool KnownSpace::add_hit(const Vector3d& p_W) {
 }
 
 PassedCells KnownSpace::passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const {
-  thread_local octomap::KeyRay ray;  // large; per thread: agents share what traces rays (onboard/ready_frames.hpp)
+  thread_local octomap::KeyRay ray;  // large, so kept; per thread, for agents in one process
   PassedCells passed;
   BlockTable<std::size_t> places;  // by block: index in passed.blocks, plus 1; 0: none
   for (const Vector3d& to : to_W) {

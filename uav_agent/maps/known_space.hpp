@@ -32,7 +32,7 @@ class KnownSpace {
   PassedCells passed_by_rays(const Vector3d& from_W, const std::vector<Vector3d>& to_W) const;
   void add_rays(const PassedCells& passed);  ///< Adds these counts to the coarse cells; a count ends at kCountedRays.
 
-  /// Enters another map's cubes: occupied ones as hits; of free ones raises each cell's count to `rays` if it is lower.
+  /// Enters another map's cubes: occupied cubes as hits; in free cubes, it raises each cell's count to at least `rays`.
   /// @returns whether any cell is newly occupied.
   bool hear(const std::vector<KnownCube>& cubes, int rays);
 

@@ -1,7 +1,7 @@
 // Exchange of voxel grids by radio: UAVs that hear each other come to equal grids, without acknowledgements. Each UAV
 // sends from time to time a hash of each chunk of its grid. From these hashes the others see which chunks differ at a
 // UAV in line of sight, and send them. A chunk that was lost on the way still differs, so it is sent again. A chunk
-// that a third UAV has sent in the meantime no longer differs, so it is not.
+// that a third UAV has sent in the meantime no longer differs, so it is not sent again.
 // Threads: one.   Deterministic.
 // Bounded: a message has one hash per chunk (at most VoxelGrid::kMostChunks) and at most `max_chunks` chunks.
 // Source: chunk-wise exchange as in RACER; hashes replace its lists of intervals, since grids merge (voxel_grid.hpp).

@@ -28,7 +28,7 @@ struct MapKeeper {
 /// UAVs in a line: 0 hears 1, 1 hears both, 2 hears 1.
 class Fleet {
  public:
-  /// @param lose  one of so many messages is lost; 0: none.
+  /// @param lose  each lose-th message is lost; 0: none.
   void round(int lose = 0) {
     now_ += 200;
     for (std::size_t i = 0; i < kFleet; ++i) {

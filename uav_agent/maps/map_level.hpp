@@ -27,7 +27,7 @@ struct BeamBundle {
   int beams = 1;
 };
 
-/// The UAV that determined a cell's state: kOwn, or the one whose map message reported it (fleet index + 1).
+/// The UAV that determined a cell's state: kOwn, or the UAV whose map message reported it (teller_of()).
 using Teller = std::uint8_t;
 inline constexpr Teller kOwn = 0;
 
@@ -83,8 +83,8 @@ class MapLevel {
   /// The same for all cells of a block, x first.
   void read(const Cell& block, std::array<Known, kCells>& known) const;
 
-  /// Frees memory: of blocks whose cells are all free by the same teller, and of blocks farther than `forget_m` from a
-  /// place whose cells are all unknown. Their evidence is lost.
+  /// Frees the memory of blocks whose cells are all free by the same teller, and of blocks whose cells are all unknown
+  /// and which are farther than `forget_m` from p. Their evidence is lost.
   void tidy(const Vector3d& p_W, double forget_m);
   /// The same for free blocks only.
   void tidy() { tidy(Vector3d::Zero(), std::numeric_limits<double>::infinity()); }

@@ -1,15 +1,15 @@
-// Where this UAV's own body has been while another UAV may have mapped it as structure.
+// Records the places at which another UAV may have mapped this UAV's own body as structure.
 //
 // A UAV with a LiDAR that does not hear this UAV maps its body like a wall (uav_traces.hpp), and reports these cubes to
 // this UAV as soon as they hear each other again. No beam could prove these cubes free while this UAV stays there, so
 // they would hold it there. The map therefore ignores a report of structure in a cube that it has proved free if this
 // trail contains the cube (WorldMap::ignore_reports()): space that was proved free, in which this UAV's body was, has
-// no structure. The trail contains cubes whose centre is within b of this UAV, where b is the radius in which beams may
-// hit its body (seen_radius_m()):
-//   - of the place where it is now;
-//   - of all places where it was in the last 60 to 120 s, each while it did not hear all other UAVs that have a LiDAR.
+// no structure. The trail contains cubes whose centre is within the radius in which beams may hit the body
+// (seen_radius_m()) of one of these places:
+//   - the place where this UAV is now;
+//   - all places where it was in the last 60 to 120 s while it did not hear all other UAVs that have a LiDAR.
 // A report may also mean another UAV whose radio is silent. Therefore the trail is short, and does not contain the
-// places where all UAVs with a LiDAR knew this UAV.
+// places where this UAV was linked with all UAVs that have a LiDAR.
 // Frame W.   Units: metres, ticks.   Threads: one.   Deterministic.   Source: none; a rule of Skein.
 #pragma once
 

@@ -109,7 +109,7 @@ TEST(ScanBundler, ABundleProvesWhatAllItsBeamsProve) {
   }
 }
 
-TEST(ScanBundler, TheNeighboursOfABundleKnowItsHit) {
+TEST(ScanBundler, AHitLimitsHowFarTheNeighboursOfItsBundleAreFreeAround) {
   const LidarConfig lidar;
   RandomStream random(4, "neighbours", 0);
   ScanBundler bundler(lidar);
@@ -129,7 +129,7 @@ TEST(ScanBundler, TheNeighboursOfABundleKnowItsHit) {
         ++around;
         EXPECT_EQ(bundle.around_free_m, 7.0F);
       }
-      // A window of a metre, eight metres away.
+      // Bundles that may pass the same window of a metre as the hit, eight metres away.
       if (apart < 0.1) {
         EXPECT_EQ(bundle.around_free_m, 7.0F) << apart;
       }
@@ -195,7 +195,7 @@ TEST(ScanBundler, AScanInDoubtHasNoBundlesAndNoHits) {
   EXPECT_TRUE(bundler.bundle(scan, {}, everywhere).hits_W.empty());
 }
 
-TEST(ScanBundler, RepeatedBeamsAreLeftOutButNotWhatTheyHit) {
+TEST(ScanBundler, RepeatedBeamsGiveNoBundlesButTheirHitsAreKept) {
   const LidarConfig lidar;
   const BeamScan scan = drawn_scan(lidar, 3);
   ScanBundler bundler(lidar);

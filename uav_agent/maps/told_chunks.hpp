@@ -62,7 +62,7 @@ class ToldChunks {
   /// Enters a receipt of a listener.   @param latest  number of the last message that it has received.
   /// @param before  bit i tells whether it has received message latest - 1 - i.
   void acknowledge(std::size_t slot, std::uint32_t latest, std::uint32_t before);
-  /// Enters a teller's cubes into the map, and notes that the teller knows all that is new in the map by them.
+  /// Enters a teller's cubes into the map, and notes that the teller knows all that these cubes change in the map.
   void hear(WorldMap& map, std::span<const HeardCube> cubes, Teller teller);
   /// Call it when a UAV's program was restarted: it has lost all that it was told.
   void forget(std::size_t slot);

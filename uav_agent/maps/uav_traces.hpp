@@ -2,7 +2,7 @@
 //
 // Where a UAV is known to be, its returns are not taken for structure (beam_scan.hpp). A UAV that is not heard enters
 // the map like a wall, and also the maps of those UAVs with which the map is shared. So does a UAV that reports wrong
-// positions: it counts as not heard from when its positions contradict its velocities until they have agreed for
+// positions: once its positions contradict its velocities, it counts as not heard until they have agreed for
 // Config::agree_s. Only velocities that it reports count: a velocity that is estimated from its positions lags behind
 // them, most of all after a gap. A UAV that reports none contradicts itself if it moves faster than it can fly.
 //

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kGrowth = 1.1;             ///< of cubes that would be too many, step by step; chosen
 constexpr std::size_t kUsualInChunk = 512;  ///< chosen; voxel_grid.hpp
-constexpr std::size_t kMostInChunk = std::numeric_limits<std::uint16_t>::max();  ///< a chunk tells its length so
+constexpr std::size_t kMostInChunk = std::numeric_limits<std::uint16_t>::max();  ///< a chunk's length has two bytes
 constexpr std::uint8_t kPlain = 0, kRuns = 1;                                    ///< encoding of a chunk
-constexpr std::size_t kLongestRun = std::numeric_limits<std::uint8_t>::max();    ///< a run tells its length so
+constexpr std::size_t kLongestRun = std::numeric_limits<std::uint8_t>::max();    ///< a run's length has one byte
 /// Greatest valid value of the state bits, which are the numbers of VoxelState: two states merge to the greater one.
 constexpr auto kHighestState = static_cast<std::uint8_t>(VoxelState::occupied);
 constexpr double kLeastEdges = 1e-9;  ///< numeric: rounded up to one cube

@@ -53,7 +53,7 @@ bool same(const VoxelGrid& a, const VoxelGrid& b) {
   return true;
 }
 
-TEST(VoxelGrid, CellsWithinACubeOfTheWorldAreAmongThoseInARange) {
+TEST(VoxelGrid, TheRangeOfCellsIncludesAllWithTheirCentreInTheCube) {
   const VoxelGrid grid = turned_grid();
   GridDraw draw;
   for (int drawn = 0; drawn < 300; ++drawn) {
@@ -69,7 +69,7 @@ TEST(VoxelGrid, CellsWithinACubeOfTheWorldAreAmongThoseInARange) {
   }
 }
 
-TEST(VoxelGrid, EveryCubeFindsItself) {
+TEST(VoxelGrid, FindsEachCubeByItsCentreAndByItsCell) {
   const VoxelGrid grid = turned_grid();
   EXPECT_EQ(grid.dims(), Eigen::Vector3i(7, 5, 4));
   for (Id id = 0; id < grid.count(); ++id) {
@@ -178,7 +178,7 @@ TEST(VoxelGrid, ChunksWithMoreCubesThanAMessageCanNumberAreRefused) {
   EXPECT_TRUE(same(from, to));
 }
 
-TEST(VoxelGrid, MergingIsTheSameInAnyOrderAndTwice) {
+TEST(VoxelGrid, MergingGivesTheSameGridInAnyOrderAndAgain) {
   VoxelGrid a = turned_grid(), b = turned_grid();
   GridDraw draw;
   fill(a, 90, draw);

@@ -82,7 +82,7 @@ TEST_P(Scattered, AStarFindsTheShortestWays) {
   EXPECT_TRUE(reached > 0 || GetParam() % 6 > 2) << "in an almost empty grid, cubes can be reached";
 }
 
-TEST_P(Scattered, CubesInReachAreThoseWithAWay) {
+TEST_P(Scattered, CubesInReachAreThoseWithAPath) {
   const VoxelGrid grid = scattered(0.1 * (GetParam() % 6), static_cast<std::uint64_t>(GetParam()));
   const Passable free = [&](Id id) { return grid.state(id) != VoxelState::occupied; };
   const auto distances = distances_in(grid, free);

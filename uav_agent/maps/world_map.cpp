@@ -11,7 +11,8 @@ namespace skein::agent {
 namespace {
 
 constexpr std::uint64_t kTidyEach = 20;  ///< scans between two passes; chosen
-/// Growth since the last tidying that makes hear() tidy again: a fourth of the blocks, and so many more. Chosen.
+/// Growth since the last tidying that makes hear() tidy again: a quarter of the blocks, and kTidyAfterBlocks more.
+/// Chosen.
 constexpr std::size_t kTidyGrowth = 4, kTidyAfterBlocks = 256;
 /// From this level on, windows are so large that the beams of a slowly moving LiDAR are not spread evenly over them.
 /// The accepted probability is halved there. Chosen.

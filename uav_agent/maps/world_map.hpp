@@ -70,8 +70,8 @@ class WorldMap {
   /// Makes unknown cubes with a point within `radius_m` of p free, except below the ground (z = 0): for the place where
   /// the UAV itself is.
   void set_free(const Vector3d& p_W, double radius_m);
-  /// Makes occupied cubes with a point within `radius_m` of p unknown: what was hit there was a UAV. The evidence about
-  /// them, and about the larger cubes around them, is discarded.
+  /// Makes occupied cubes with a point within `radius_m` of p unknown, because beams hit a UAV there. The evidence
+  /// about them, and about the larger cubes around them, is discarded.
   void vacate(const Vector3d& p_W, double radius_m);
   /// Doubts an occupied cube that may have been a UAV. It stays occupied until new beams prove it free, like an unknown
   /// cube, or until the UAV that reported it occupied reports it free. If a beam of this UAV ends in it again, the

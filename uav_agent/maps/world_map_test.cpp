@@ -184,10 +184,10 @@ std::vector<BeamBundle> flood(double half_m) {
   return beams;
 }
 
-TEST(WorldMap, AHitIsKeptWhateverBeamsPassAndTakesOneFreeCube) {
+TEST(WorldMap, AHitStaysWhenBeamsPassItAndTakesOneFreeCube) {
   WorldMap map(WorldMap::Config{});
   const std::vector<BeamBundle> all = flood(4.0);
-  for (int i = 0; i < 60; ++i) map.insert(all, {});  // long enough for blocks that are free all over to be taken back
+  for (int i = 0; i < 60; ++i) map.insert(all, {});  // long enough for tidy() to free blocks of free cells
   const std::size_t free = map.counts().free[0], blocks = map.counts().blocks;
   EXPECT_EQ(free, 16u * 16u * 16u);
   const Vector3d thing_W(1.1, 1.1, 1.1);
@@ -288,7 +288,7 @@ TEST(WorldMap, TheEvidenceOfFarUnknownSpaceIsForgotten) {
 }
 
 /// When the UAV comes nearer to a cube, the smaller cubes in it inherit its evidence, and free space remains free.
-TEST(WorldMap, SmallerCubesBeginWithWhatTheLargerOnesKnow) {
+TEST(WorldMap, SmallerCubesInheritTheEvidenceOfLargerOnes) {
   const auto beams_until_free = [](double beams_from_afar) {
     WorldMap map(WorldMap::Config{});
     std::vector<BeamBundle> beams;  // along x and y through the origin, 12 m away, and then 4 m
@@ -366,7 +366,7 @@ TEST(WorldMap, TellsWhereSomethingChanged) {
   EXPECT_EQ(map.regions().size(), 2U);
 }
 
-TEST(WorldMap, KnowsHowFarStructureIsAsItComesAndGoes) {
+TEST(WorldMap, MeasuresTheDistanceToStructureThatComesAndGoes) {
   WorldMap map(WorldMap::Config{});
   const Vector3d p_W(0.1, 0.1, 5.1);
   EXPECT_EQ(map.structure_distance_m(p_W), 4.0);

@@ -7,7 +7,7 @@
 namespace skein::agent {
 namespace {
 
-/// A way from p along a unit vector.
+/// A way from the point p along a unit vector.
 class Way {
  public:
   Way(const Vector3d& from_W, const Vector3d& direction_W)

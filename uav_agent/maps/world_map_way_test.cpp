@@ -1,4 +1,4 @@
-// How far a path is clear, compared with a test of each of its samples.
+// Tests of WorldMap::clear_way_m(). Its result must be that of a check of each sample along the way.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -20,7 +20,7 @@ TEST(WorldMapWay, IsClearUpToTheFirstCubeThatIsOccupied) {
   EXPECT_EQ(map.clear_way_m({7.25, 0.25, 0.25}, Vector3d::UnitX(), 20.0), 0.0) << "the way begins inside the cube";
 }
 
-/// clear_way_m() passes over chunks without structure; its result must be that of a check of each sample, to the bit.
+/// clear_way_m() passes over chunks without structure. That must not change the result, not even by rounding.
 TEST(WorldMapWay, IsClearAsFarAsACheckOfEachSampleFinds) {
   RandomStream random(9, "world_map_way_test", 0, 0);
   for (const double cell_m : {0.5, 0.3}) {
