@@ -58,7 +58,7 @@ TEST(BestAim, IsAboutAsGoodAsTheBestOfAGridAndHasTheTrueQuality) {
   }
 }
 
-TEST(BestAim, TheGimbalLimitsWhatCanBeShown) {
+TEST(BestAim, PointsBeyondTheGimbalLimitHaveNoQuality) {
   CameraKind kind;
   kind.gimbal.pitch_limit_deg = 40.0;
   const BestAim camera(kind, kDesired, RulesConfig{});

@@ -136,7 +136,7 @@ TEST_F(OracleCache, EachInputThatChangesTheAnswerChangesTheKey) {
   EXPECT_EQ(oracle_key(scenario_, scene_, request_.config), before);
 }
 
-TEST_F(OracleCache, TheUsersFolderIsWhereXdgSaysItIs) {
+TEST_F(OracleCache, TheUsersCacheFolderFollowsXdg) {
   const auto with = [](const char* cache, const char* home) {
     cache != nullptr ? ::setenv("XDG_CACHE_HOME", cache, 1) : ::unsetenv("XDG_CACHE_HOME");
     home != nullptr ? ::setenv("HOME", home, 1) : ::unsetenv("HOME");

@@ -85,8 +85,8 @@ Attainable sum_up(const std::vector<PointView>& views, double least) {
   return sum;
 }
 
-/// Which attainable points a whole UAV can photograph. Tries the kind with the smallest body first, and larger kinds
-/// only for the remaining points.
+/// Finds the attainable points that a whole UAV can photograph. Tries the kind with the smallest body first, and larger
+/// kinds only for the remaining points.
 class FlyablePoints {
  public:
   FlyablePoints(const Scenario& scenario, const Scene& scene, const OracleConfig& config, const RayScene& world,

@@ -377,7 +377,7 @@ void expect_near(const Attainable& found, double points, double score) {
   EXPECT_LE(found.score, 1.06 * score);
 }
 
-TEST(Oracle, OfficialScenesComeNearTheFiguresFoundElsewhere) {
+TEST(Oracle, OfficialScenesHaveNearlyTheScoresThatAnotherMethodFound) {
   const auto mbs = test::official_mesh("mbs/mbs.stl");
   if (!mbs) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   const auto mbs_points = points_asked(*test::official_points("mbs/mbs_interest_points.pcd"));

@@ -26,7 +26,7 @@ constexpr double kRadio_m = 40.0;      ///< between UAVs
 constexpr double kMastShare = 0.2;     ///< height of the mast, as a share of the district's side, besides kLeastMast_m
 constexpr double kLeastMast_m = 25.0;
 
-/// Column and row of a square in a grid with so many columns.
+/// Column and row of the square with this number in a grid with this many columns.
 Vector2d square(std::size_t number, std::size_t columns) {
   const std::size_t column = number % columns, row = number / columns;
   return {static_cast<double>(column), static_cast<double>(row)};

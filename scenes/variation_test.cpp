@@ -25,7 +25,7 @@ Scene two_boxes() {
   return scene;
 }
 
-TEST(VaryBoxes, SeedZeroKeepsThem) {
+TEST(VaryBoxes, SeedZeroKeepsTheBoxes) {
   Scene scene = two_boxes();
   vary_boxes(scene, 0);
   ASSERT_EQ(scene.boxes.size(), 2u);

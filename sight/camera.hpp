@@ -82,7 +82,7 @@ class Camera {
   std::uint64_t captures() const { return captures_; }
   /// Best score of each interest point so far; 0 if it never counted.
   const std::vector<float>& best() const { return best_; }
-  /// Which interest points were ever in the field of view with line of sight, whatever their quality.
+  /// By interest point: whether it was ever in the field of view with line of sight, even with too low a quality.
   const std::vector<bool>& seen() const { return seen_; }
 
   /// Best score that each interest point would have had in pictures from the other states, if it exceeded best() at

@@ -14,7 +14,7 @@ namespace {
 
 CameraKind large() { return {CameraConfig{}, GimbalConfig{}, body_shape(VehicleConfig{})}; }
 
-TEST(CameraMount, HidesTheSameAsABodyInTheWorld) {
+TEST(CameraMount, HidesTheSameRaysAsABodyInTheWorld) {
   RandomStream random(1, "camera_mount_test", 0);
   const CameraKind kind = large();
   const CameraMount mount(kind, true), glass(kind, false);

@@ -42,7 +42,7 @@ class OtherStatesOfACamera : public testing::Test {
   std::vector<InterestPoint> points_;
 };
 
-TEST_F(OtherStatesOfACamera, ShowWhatACameraThereShowsAndChangeNothing) {
+TEST_F(OtherStatesOfACamera, ShowThePicturesOfACameraInThatStateAndChangeNothing) {
   const RayScene world(mesh_);
   Camera with_other = camera(), alone = camera();
   std::vector<float> best_if(points_.size(), 0.0F);

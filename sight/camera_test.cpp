@@ -47,8 +47,8 @@ RigidBodyState random_state(RandomStream& random, const Vector3d& low, const Vec
   return body;
 }
 
-/// Which points a capture must show, by the formulas and by a test of every triangle. The verdict `open` is for
-/// points that a ray near an edge or along the surface does not decide.
+/// Whether a capture must show a point, by the formulas and by a test of every triangle; `open`: undecided, because
+/// rounding decides near an edge and at the tolerance.
 enum class Verdict { hidden, seen, open };
 
 Verdict judge(const InterestPoint& point, const CameraState& state, const TriangleMesh& mesh) {
@@ -69,7 +69,7 @@ Verdict judge(const InterestPoint& point, const CameraState& state, const Triang
 }
 
 /// The brute-force computation has no ground. The generated meshes reach below z = 0, so the test lifts them.
-TEST(Camera, SeesWhatBruteForceSees) {
+TEST(Camera, DetectsThePointsThatBruteForceFinds) {
   RandomStream random(1, "camera_test", 0, 0);
   TriangleMesh mesh = test::random_triangles(150, 11);
   for (auto& vertex : mesh.vertices) {
@@ -123,7 +123,7 @@ class CameraAtWall : public ::testing::Test {
   RulesConfig rules_;
 };
 
-TEST_F(CameraAtWall, ReadyAfterStrictlyMoreThanTheInterval) {
+TEST_F(CameraAtWall, IsReadyOnlyAfterMoreThanTheInterval) {
   Camera c = camera();
   const RayScene w = world();
   EXPECT_TRUE(c.ready(0));
@@ -282,7 +282,7 @@ TEST(Camera, HidesAsMuchOfThePictureAsTheBodyOfTheReference) {
 /// Views of points of the public scene MBS, within 60 degrees of their normal and with nothing in between. Each point
 /// is on its triangle to single precision. The reference's ray ends at the point, so it hits only 45 % of the points;
 /// Skein's own test sees all.
-TEST(Camera, RayThatEndsAtThePointMissesMoreThanHalf) {
+TEST(Camera, RaysThatEndAtTheirPointMissMoreThanHalfOfThePoints) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   const auto points = test::official_points("mbs/mbs_interest_points.pcd");
   if (!mesh || !points) {
@@ -342,7 +342,7 @@ TEST_F(CameraAtWall, TheGroundHidesPoints) {
 }
 
 /// Prints the CPU time of a capture during a flight that faces the structure, but sets no limit for it.
-TEST(Camera, MeasureCaptureOnMbs) {
+TEST(Camera, ACaptureOnMbsDetectsPointsAndPrintsItsCpuTime) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   const auto points = test::official_points("mbs/mbs_interest_points.pcd");
   if (!mesh || !points) {

@@ -1,5 +1,5 @@
 // Many rays from one point at once, as a LiDAR sends them: which triangle of the structure each of them hits first.
-// How it works and what it costs: docs/decisions/0007-fan-of-rays.md.
+// Algorithm and costs: docs/decisions/0007-fan-of-rays.md.
 // Frame W; metres.
 //
 // Gives the same bits on every x86-64 CPU, whatever the width of its registers: only basic operations in IEEE single
@@ -20,7 +20,7 @@ class RayFan {
   /// Result of a ray that hits nothing.
   static constexpr std::uint32_t kNothing = 0xffffffffU;
 
-  /// Which instruction set to use. `widest`: AVX2 if the CPU has it, else SSE2.
+  /// The instruction set to use. `widest`: AVX2 if the CPU has it, else SSE2.
   enum class Width { sse2, widest };
 
   /// Builds a search tree: about 0.1 s per 100,000 triangles.

@@ -101,7 +101,7 @@ struct StoredPlanes {
   }
 };
 
-/// Which rays of a rectangle may hit each of eight triangles.
+/// The rays of a rectangle that may hit each of eight triangles.
 struct Shadows {
   Indices columns, rows;
   unsigned some;  ///< bit mask of the triangles that any ray may hit

@@ -70,7 +70,7 @@ class Traced {
     return result;
   }
 
-  /// Where a ray crosses the plane of the triangle that was found for it.
+  /// Distance at which a ray crosses the plane of the triangle that was found for it.
   double distance(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction, std::uint32_t triangle) const {
     if (triangle == RayFan::kNothing) return kNowhere;
     const auto corner = [&](int k) -> Vector3d {

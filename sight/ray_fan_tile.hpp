@@ -31,7 +31,7 @@ struct Ruler {
 struct Tile {
   alignas(32) float x[kRays], y[kRays], z[kRays];  ///< directions in W
   alignas(32) float nearness[kRays];               ///< 1 / depth of the first hit so far, or of the ray's end
-  std::uint32_t triangle[kRays];                   ///< that the ray hits first so far, or kNoTriangle
+  std::uint32_t triangle[kRays];                   ///< the first one that each ray hits so far, or kNoTriangle
   Vector8 origin_W, origin_T;
   Vector8 axes_W[3], axes_T[3];  ///< across, along, ahead (ray_fan_kernel.hpp)
   Vector8 spans_T[3];            ///< magnitudes of the components of axes_T

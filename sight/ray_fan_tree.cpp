@@ -123,7 +123,7 @@ Box box_of(std::span<const Piece> pieces) {
   return box;
 }
 
-/// Which of kBins equal slices of the range of centres a piece falls into.
+/// Divides the range of centres into kBins equal slices; of() returns the slice of a piece.
 struct Slices {
   int axis = 0;
   float start = 0.0F, scale = 0.0F;

@@ -306,7 +306,7 @@ TEST(RayScene, ClearanceAgreesWithBruteForce) {
 
 /// A scene that is built again gives the same bits. With the instruction set that Embree prefers, distances agree to a
 /// micrometre.
-TEST(RayScene, RepeatsBitForBit) {
+TEST(RayScene, ARebuiltSceneGivesTheSameBits) {
   const TriangleMesh mesh = test::random_triangles(1500, 9);
   const RayScene first(mesh), second(mesh), native(mesh, {}, true);
   RandomStream random(6, "ray_scene_test", 0, 0);

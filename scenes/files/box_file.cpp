@@ -22,7 +22,7 @@ double distance_from_orthonormal(const Matrix3d& R) {
   return (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
 
-/// Why a matrix is not a rotation; empty if it is one.
+/// The reason why a matrix is not a rotation; empty if it is one.
 std::string rotation_complaint(const Matrix3d& R) {
   if (distance_from_orthonormal(R) > kOrthogonalWithin) {
     return fmt::format(

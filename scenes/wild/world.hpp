@@ -1,5 +1,5 @@
-// Wild scenes: whole worlds drawn at random from one number. Structures, clutter, boxes, points, station, fleet, starts,
-// resolution and time are all random (docs/wild.md).
+// Wild scenes: whole worlds drawn at random from one number. Structures, clutter, boxes, points, station, fleet,
+// starts, resolution and time are all random (docs/wild.md).
 // Frame W.   Units: m, s.   Deterministic: the same number gives the same bytes on every machine.   Threads: any.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How the flight core reacts to the uncertainty of the odometry, to wind and to the battery.
+// The flight core's reactions to the uncertainty of the odometry, to wind and to the battery.
 //   Clearance grows by drift_sigmas standard deviations of the position, and by what the mean wind pushes a UAV off its
 //   setpoint. Structure that the UAV's own LiDAR has seen is off by the drift of its odometry since then; structure on
 //   maps of other UAVs is off by the errors of both UAVs, and so are the other UAVs.

@@ -178,7 +178,7 @@ TEST(Caution, FliesSlowerInGustsAndNotInASteadyWind) {
   }
 }
 
-TEST(Caution, MustLandInTimeForItsChargeItsWayAndTheWind) {
+TEST(Caution, DecidesToLandByChargeDistanceAndWind) {
   // Half the charge is gone in 100 s of 0.5 missions of 400 s: a second costs 0.005.
   const auto lands_at = [](const Vector3d& p_WB, const std::optional<Vector3d>& wind_W) {
     Told uav;

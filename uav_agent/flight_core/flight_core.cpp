@@ -8,11 +8,12 @@ namespace skein::agent {
 namespace {
 
 constexpr double kNoLinkS = 4.0;      ///< longest wait for a link at a place that should have one; chosen
-constexpr double kIdleS = 4.0;        ///< recovery begins after so long without a goal that can be reached; chosen
+constexpr double kIdleS = 4.0;        ///< recovery begins after this time without a goal that can be reached; chosen
 constexpr std::int64_t kHome = -2;    ///< id of the goal that is a place to deliver captures; numeric
 constexpr double kMakesRoomS = 10.0;  ///< longest flight aside; chosen
 constexpr double kShowCheckS = 5.0;  ///< between two checks of whether a photographer waits to be shown its way; chosen
-/// An explorer that flies along the waypoints of a goal goes on for this time before it shows a photographer its way.
+/// An explorer that flies along the waypoints of a goal goes on for up to this time before it shows a photographer its
+/// way.
 /// Chosen: flights to photographers from such lines changed the scores of four planners in the wild worlds 200 to 209
 /// by at most 0.2 %.
 constexpr double kLineS = 10.0;
@@ -91,7 +92,7 @@ bool FlightCore::flies_along() const {
   return navigator_.current() && navigator_.on_way() && navigator_.current()->way.size() > 1;
 }
 
-/// What the UAV does in mode `homing`.
+/// The UAV's activity in mode `homing`.
 Doing::What FlightCore::doing_home(const PlannerInput& in) const {
   if (in.station_linked && homing_.delivers_here(in)) return Doing::What::delivers;
   if (navigator_.current()) return Doing::What::homing;

@@ -53,11 +53,12 @@ class FlightCore {
 
   /// Index in the fleet of the UAV for which this UAV waits in this exchange.
   const std::optional<std::size_t>& waits_for() const { return waits_for_; }
-  /// Why a goal ended in this exchange without being reached; empty: none did.
+  /// The reason why a goal ended in this exchange without being reached; empty: none did.
   const std::string& no_way() const { return no_way_; }
-  /// What the core does in this exchange, for display.   @param in  the input of step().
+  /// The core's activity in this exchange, for display.   @param in  the input of step().
   Doing doing(const PlannerInput& in) const;
-  /// Where the UAV is about to fly: the other UAVs send map updates about the way there first (maps/map_news.hpp).
+  /// The place to which the UAV is about to fly. The other UAVs send map updates about the way there first
+  /// (maps/map_news.hpp).
   std::optional<Vector3d> going_to_W() const;
   /// PlannerInput::space: where the planner may choose to work.
   FreeSpace space(const PlannerInput& in) const { return navigator_.open_space(in); }

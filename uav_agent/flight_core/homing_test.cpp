@@ -1,4 +1,4 @@
-// When a UAV has to fly home, and to which places.
+// Tests when a UAV has to fly home, and to which places.
 #include "uav_agent/flight_core/homing.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST(Homing, AFlightHomeThatWasGivenUpIsDueAgainLaterAndAtTheEnd) {
 }
 
 // The farther off a UAV is, the earlier it must leave. It never counts on flying faster than approach_mps.
-TEST(Homing, IsDueInTimeForTheWay) {
+TEST(Homing, IsDueInTimeForTheFlightHome) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     RandomStream random(seed, "way_home", 0);
     const double off_m = random.uniform(5.0, 200.0);

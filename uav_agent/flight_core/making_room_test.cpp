@@ -1,4 +1,4 @@
-// Which UAVs make room, when, and where they go.
+// Tests which UAVs make room, when, and where they go.
 #include "uav_agent/flight_core/making_room.hpp"
 
 #include <gtest/gtest.h>

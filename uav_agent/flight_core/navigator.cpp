@@ -23,7 +23,7 @@ constexpr std::uint64_t kLookEach = 4;  ///< exchanges between two checks of the
 /// The path is checked up to kLookAheadM ahead. It may be nearer to structure by kSlackM than when it was planned.
 /// Chosen.
 constexpr double kLookAheadM = 15.0, kSlackM = 0.4;
-constexpr double kBesideM = 0.1;          ///< so far beside its path, a UAV counts as being on it; chosen
+constexpr double kBesideM = 0.1;          ///< a UAV this far beside its path counts as being on it; chosen
 constexpr int kMostReplans = 3;           ///< after these, the goal ends; chosen
 constexpr double kRefusedM = 1.5;         ///< radius of a place that paths avoid, because it held the UAV; chosen
 constexpr std::size_t kMostRefused = 64;  ///< memory: the oldest place is dropped
@@ -87,8 +87,8 @@ FreeSpace Navigator::space(const PlannerInput& in, const Vector3d& here_W) const
   return {space_config(in), in.boxes, in.map, std::move(keep_out)};
 }
 
-/// Where a path begins: at the setpoint, or a step back from another UAV that is so near that the safety filter would
-/// not let this UAV fly around it.
+/// The start of a path: the setpoint, or a place a step back from another UAV that is so near that the safety filter
+/// would not let this UAV fly around it.
 Vector3d Navigator::way_begins_W(const PlannerInput& in) const {
   const Vector3d here_W = in.tracking.setpoint.p_WB;
   Vector3d from_W = here_W;

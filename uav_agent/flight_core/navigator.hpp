@@ -19,7 +19,7 @@
 
 namespace skein::agent {
 
-/// What the flight core requests from tracker and gimbal in one exchange. Empty values: no change.
+/// The flight core's requests to tracker and gimbal in one exchange. Empty values: no change.
 struct Steering {
   Motion motion = {};
   std::optional<double> yaw = {};
@@ -64,7 +64,8 @@ class Navigator {
   std::vector<Outcome> take_outcomes() { return std::exchange(outcomes_, {}); }
   /// First waypoint of the last goal that ended with no_way; nullopt once another goal is reached.
   const std::optional<Vector3d>& missed_W() const { return missed_W_; }
-  /// Where the UAV flies to: the goal's first waypoint, or the last one if on_way(). Without a goal, missed_W().
+  /// The place to which the UAV flies: the goal's first waypoint, or the last one if on_way(). Without a goal,
+  /// missed_W().
   std::optional<Vector3d> going_to_W() const;
 
   /// Space for path search as of now. Places near other UAVs, and places that could not be proved free, are excluded.

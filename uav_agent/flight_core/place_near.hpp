@@ -1,4 +1,4 @@
-// Finds the best of the places near a UAV to which it can fly straight, if it cannot or need not plan a path.
+// For a UAV that cannot or need not plan a path: finds the best of the places nearby to which it can fly straight.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 

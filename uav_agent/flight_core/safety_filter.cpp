@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kSampleM = 0.3;       ///< between two checked places of a trajectory; chosen
 constexpr double kNearerM = 1e-6;      ///< allows for rounding in comparisons of distances
-constexpr double kHeightSigmas = 2.0;  ///< a UAV on the ground may be reported above it by so many deviations; chosen
-constexpr double kNoiseSigmas = 4.0;   ///< changes within so many standard deviations of noise are not motion; chosen
+constexpr double kHeightSigmas = 2.0;  ///< a UAV on the ground may be reported higher by this many deviations; chosen
+constexpr double kNoiseSigmas = 4.0;   ///< changes within this many standard deviations of noise are not motion; chosen
 /// A climb is commanded from a place that noise has shifted, so each step leads a little to the side: by a share of the
 /// shift, within this. Chosen.
 constexpr double kCommandNoise = 0.1;  ///< [standard deviations of the noise]
@@ -191,7 +191,7 @@ std::vector<SafetyFilter::PeerReach> SafetyFilter::reach_of_peers(const Facts& f
     const double age_s = peer.visible ? 0.0 : seconds(facts.tick - *peer.seen);
     if (age_s > config_.peer_memory_s) continue;
     Vector3d p_W = peer.p_W, v_W = peer.v_W;
-    // If this UAV stands beside it, climbing past the height that the peer reports must not count as coming nearer.
+    // Beside a standing peer, a climb past the height that the peer reports must not count as coming nearer to it.
     const bool on_ground = stands(peer);
     if (on_ground) p_W.z() = std::min({p_W.z(), agent_.fleet[peer.uav].p_WB_start.z(), now_W_.z()});
     if (trust_ == Trust::start && (on_ground || is_at_start(peer))) p_W.z() = now_W_.z();

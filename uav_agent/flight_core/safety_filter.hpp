@@ -31,7 +31,7 @@
 
 namespace skein::agent {
 
-/// Why a UAV is slower than its path asks for.
+/// The reason why a UAV is slower than its path asks for.
 struct Held {
   enum class By : std::uint8_t { nothing, unproved, structure, peer };
   By by = By::nothing;
@@ -50,7 +50,7 @@ struct ExpectedErrors {
 
 class SafetyFilter {
  public:
-  /// What the filter knows in one exchange; valid during step().
+  /// The inputs of the filter in one exchange; valid during step().
   struct Facts {
     Tick tick = 0;
     const RigidBodyState& state;

@@ -62,7 +62,7 @@ TEST(SafetyFilter, TwoUavsNeverTouch) {
 
 constexpr double kSoftMps2 = 2.0;
 
-/// How near two UAVs come that begin to brake 0.1 s after now.
+/// Least distance between two UAVs that begin to brake 0.1 s after now.
 double braking_least_m(const RigidBodyState& one, const RigidBodyState& other, double brakes_mps2) {
   static constexpr double kDelayS = 0.1, kStepS = 0.02, kForS = 3.0;
   const auto at_W = [&](const RigidBodyState& state, double t_s) -> Vector3d {

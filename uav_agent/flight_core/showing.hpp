@@ -41,7 +41,7 @@ class Showing {
   bool has_risen(std::size_t uav, const PlannerInput& in) const;
   /// Whether it is this UAV's turn to show the way up to this charge, which has not risen yet.
   bool is_due(const Charge& charge, const PlannerInput& in) const;
-  /// Where the UAV was last seen, if it went aside before it climbed; else its start.
+  /// The place where the UAV was last seen, if it went aside before it climbed; else its start.
   Vector3d place_W(std::size_t uav, const PlannerInput& in) const;
   bool column_known(std::size_t uav, const PlannerInput& in) const;
 

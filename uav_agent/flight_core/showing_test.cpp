@@ -1,4 +1,4 @@
-// Which explorer shows which photographer its way up, from where, and how often.
+// Tests which explorer shows which photographer its way up, from where, and how often.
 #include "uav_agent/flight_core/showing.hpp"
 
 #include <gtest/gtest.h>
@@ -182,7 +182,7 @@ TEST(Showing, APhotographerThatWentAsideIsShownItsWayWhereItIs) {
 
 // The photographer may stand below a roof, so that its column cannot be seen from above. So the explorer also looks
 // from below.
-TEST(Showing, LooksFromOtherHeightsEachTime) {
+TEST(Showing, EachAttemptLooksFromAnotherHeight) {
   Shows uav(explorer_and_photographer(), 0);
   std::set<double> heights_m;
   for (int i = 0; i < 400; ++i, uav.k += 40) {
@@ -193,7 +193,7 @@ TEST(Showing, LooksFromOtherHeightsEachTime) {
   EXPECT_GT(*heights_m.rbegin(), 10.0);
 }
 
-TEST(Showing, NoUavThatHasRisenIsShownAnything) {
+TEST(Showing, APhotographerThatHasRisenIsNotShownItsWay) {
   Shows uav(explorer_and_photographer(), 0);
   uav.peers.update(0, {{node_of_uav(UavIndex(1)), Vector3d(6.0, 0.0, 0.2), std::nullopt}});
   ASSERT_TRUE(uav.next());

@@ -3,8 +3,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kScanLostS = 3.0;  ///< a LiDAR without a scan for so long has failed; chosen: 30 scans of the sensor
-/// A map with no more regions holds only the space around the UAV's start. Geometry: so many may meet at a corner.
+constexpr double kScanLostS = 3.0;  ///< a LiDAR without a scan for this time has failed; chosen: 30 scans of the sensor
+/// A map with no more regions holds only the space around the UAV's start. Geometry: this many meet at a corner.
 constexpr std::size_t kOwnRegions = 8;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How a UAV learns of free space: from its own LiDAR, or from map messages of other UAVs.
+// The sources from which a UAV learns of free space: its own LiDAR, or map messages of other UAVs.
 // Threads: one.   Deterministic.   Source: our own rules.
 #pragma once
 

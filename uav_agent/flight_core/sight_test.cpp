@@ -1,4 +1,4 @@
-// When a UAV without a LiDAR assumes that space is free, and when it stops.
+// Tests when a UAV without a LiDAR assumes that space is free, and when it stops.
 #include "uav_agent/flight_core/sight.hpp"
 
 #include <gtest/gtest.h>

@@ -27,7 +27,7 @@ class Takeoff {
   Phase step(const PlannerInput& in, Steering& steering);
   /// Prepares another takeoff, of a UAV that has landed.
   void again();
-  /// Where the climb ends; nullopt before the UAV first lifts off.
+  /// The end of the climb; nullopt before the UAV first lifts off.
   const std::optional<Vector3d>& top_W() const { return top_W_; }
   /// Index in the fleet of the UAV for which this UAV waited in the last step().
   const std::optional<std::size_t>& waits_for() const { return waits_for_; }

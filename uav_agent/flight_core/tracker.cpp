@@ -10,7 +10,8 @@ namespace skein::agent {
 namespace {
 
 constexpr double kBrakingShare = 0.8;  ///< of the acceleration limit; chosen: the rest keeps the UAV on the line
-/// The mass heads for a point on the path so far ahead, at its present speed; at least kMinLookAheadM. Chosen.
+/// The mass heads for the point on the path that it reaches after kLookAheadS at its present speed, at least
+/// kMinLookAheadM ahead. Chosen.
 constexpr double kLookAheadS = 0.3, kMinLookAheadM = 0.15;
 constexpr double kTouchM = 0.1;         ///< a sharp corner counts as reached within this distance; chosen
 constexpr double kSharpSpeedMps = 0.3;  ///< speed in a sharp corner; chosen

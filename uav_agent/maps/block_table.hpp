@@ -59,7 +59,7 @@ class BlockTable {
   /// Memory allocated [bytes], without what the blocks themselves point to.
   std::size_t bytes() const { return slots_.capacity() * sizeof(Slot) + blocks_.capacity() * sizeof(Block); }
 
-  /// Whether both hold the same keys with equal blocks, in whatever order they were inserted.
+  /// Whether both hold the same keys with equal blocks. The order of insertion does not matter.
   bool operator==(const BlockTable& other) const {
     return blocks_.size() == other.blocks_.size() && std::ranges::all_of(slots_, [&](const Slot& slot) {
              if (slot.key == kNone) return true;

@@ -108,7 +108,7 @@ TEST(ClutterFilter, ALidarThatStandsInRainIsNotClosedIn) {
 }
 
 // Structure returns more beams the nearer it is: 2 cm of a pole, with 0.2 degrees between two beams of a ring.
-TEST(ClutterFilter, APoleIsOnTheMapAfterFourScansHoweverNear) {
+TEST(ClutterFilter, APoleIsOnTheMapAfterFourScansAtAnyDistance) {
   for (const double range_m : {1.0, 1.6, 2.0, 4.0, 5.9, 6.1}) {
     Filtered pole;
     const auto beams = static_cast<int>(std::max(1.0, 0.02 / (range_m * 0.0035) + 1.0));

@@ -136,7 +136,7 @@ TEST(UnseenMembers, TheBoundHoldsIfSightingsAreLost) {
       << "the bound for no lost returns would not hold";
 }
 
-TEST(UnseenMembers, NoNumberOfBeamsIsTooMany) {
+TEST(UnseenMembers, EvidenceDoesNotOverflowWithManyBeams) {
   const FreeCriterion criterion{.member_width_m = 0.005, .member_in_halo_m = 1.0, .unseen_p = 1e-3};  // a thin wire
   RandomStream random(2, "many", 0);
   BeamEvidence evidence;

@@ -102,7 +102,7 @@ TEST_P(DrawnSpace, HitsInABoxComeInTheOrderOfOctoMap) {
   EXPECT_GT(seen, 1000U);
 }
 
-TEST_P(DrawnSpace, OctoMapReadsWhatIsKnown) {
+TEST_P(DrawnSpace, OctoMapReadsTheSameSpaceFromTheFile) {
   for (const int rays : {1, 3, 6}) {
     const auto tree = read_back(space_.octomap_file(rays));
     EXPECT_EQ(tree->getResolution(), kCellM);

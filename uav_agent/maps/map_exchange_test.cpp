@@ -98,7 +98,7 @@ TEST(MapExchange, WithLostMessagesTheExchangeOnlyTakesLonger) {
   EXPECT_LT(rounds, 80);
 }
 
-TEST(MapExchange, AUavThatAgreesSendsNoChunks) {
+TEST(MapExchange, UavsWithEqualGridsSendNoChunks) {
   Fleet fleet;
   learn(fleet);
   for (int i = 0; i < 60; ++i) fleet.round();
@@ -108,7 +108,7 @@ TEST(MapExchange, AUavThatAgreesSendsNoChunks) {
 }
 
 /// Also for the finest grid of the largest site. The rest of a payload is for the planner's other messages.
-TEST(MapExchange, AMessageFitsIntoAPayloadHoweverManyCubesTheGridHas) {
+TEST(MapExchange, AMessageFitsIntoAPayloadWithAnyNumberOfCubes) {
   constexpr std::size_t kOfThePlanner = 200;
   for (const double edge_m : {20.0, 100.0, 250.0}) {
     VoxelGrid ours(Isometry3d::Identity(), Vector3d::Constant(edge_m), 1.0), theirs = ours;
@@ -134,7 +134,7 @@ TEST(MapExchange, AMessageFitsIntoAPayloadHoweverManyCubesTheGridHas) {
   }
 }
 
-TEST(MapExchange, AnotherGridAndDamageAreRefused) {
+TEST(MapExchange, MessagesOfAnotherGridAndDamagedOnesAreRefused) {
   Fleet fleet;
   learn(fleet);
   fleet.round();

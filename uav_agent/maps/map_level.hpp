@@ -122,7 +122,7 @@ class MapLevel {
     std::array<Space, kCells> space = {};
     std::array<Teller, kCells> teller = {};
   };
-  /// Where a block is stored, or that all its cells are free.
+  /// The place of a stored block, or the note that all its cells are free.
   struct Slot {
     std::uint32_t number = kNone;  ///< kNone, kAllFree, or kFirst + index in blocks_
     Teller teller = kOwn;          ///< if kAllFree: of all cells
@@ -165,7 +165,7 @@ class MapLevel {
   std::uint64_t windows_ = 0;
 };
 
-/// Which cells of a block are structure: occupied, and not in doubt.
+/// Tells which cells of a block are structure: occupied, and not in doubt.
 class MapLevel::Structure {
  public:
   Structure() = default;

@@ -73,7 +73,7 @@ TEST(MapNews, ARestartedUavReceivesEverythingAgainAndSendsItsNews) {
 }
 
 /// After two maps agree, the test restarts one of the UAVs: the one that sent its map, or the one that received it.
-TEST(MapNews, ARestartedUavReceivesAgainWhatItKnew) {
+TEST(MapNews, ARestartedUavReceivesItsFormerMapAgain) {
   for (const std::size_t restarted : {0U, 1U}) {
     NewsRadio radio({}, 5);
     RandomStream random(5, "news_own", 0);

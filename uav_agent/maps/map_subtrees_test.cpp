@@ -232,7 +232,7 @@ TEST(HeardMap, StaysSmallAndKnowsAllThatItReceived) {
   }
 }
 
-TEST(HeardMap, ReadingAChunkGivesWhatIsKnownOfItsCubes) {
+TEST(HeardMap, ReadGivesTheStateOfEachCubeOfAChunk) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "read_chunks", 0);
     WorldMap::Config config;

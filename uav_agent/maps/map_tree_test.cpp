@@ -52,7 +52,7 @@ std::map<CubeNumber, Space> cubes_of(const WorldMap& map) {
   return cubes;
 }
 
-TEST(MapTree, HasAllThatTheMapKnowsAsItGrows) {
+TEST(MapTree, EqualsTheMapAfterEachUpdate) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RandomStream random(seed, "map_tree", 0);
     WorldMap map(WorldMap::Config{});

@@ -17,7 +17,7 @@
 
 namespace skein::agent {
 
-/// Which cells the hits of a key frame lie in.
+/// The cells in which the hits of a key frame lie.
 struct HitCells {
   struct Block {
     Eigen::Vector3i at;  ///< see HitBlocks
@@ -27,7 +27,7 @@ struct HitCells {
   std::vector<Block> blocks;
 };
 
-/// How many of a key frame's rays pass which coarse cells.
+/// The coarse cells that a key frame's rays pass, and the number of rays in each.
 struct PassedCells {
   using Block = std::array<std::uint8_t, 64>;           ///< counts of 4 x 4 x 4 cells, 20 at most
   std::vector<std::pair<std::uint64_t, Block>> blocks;  ///< key: RayBlocks::block_of()
@@ -50,7 +50,7 @@ class OccupancyMap {
     double free_resolution_m = 2.0;  ///< edge of a free cell: 1, 2, 4, ... times resolution_m; chosen
     double ground_m = 0.3;           ///< hits below this height end a ray, but are not obstacles; chosen
     double free_range_m = 30.0;      ///< free space is traced only up to this distance from the sensor; chosen
-    int max_free_rays = 400;         ///< about so many rays of a key frame are traced, evenly picked; chosen
+    int max_free_rays = 400;         ///< about this many rays of a key frame are traced, evenly picked; chosen
   };
 
   OccupancyMap();

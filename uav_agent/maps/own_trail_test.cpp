@@ -98,7 +98,7 @@ TEST_F(OwnTrailTest, ContainsOnlyTheCurrentPlaceWhileAllUavsWithALidarAreHeard) 
   EXPECT_TRUE(trail_.contains(cube_at(p_W_)));
 }
 
-TEST_F(OwnTrailTest, ForgetsWhatIsOlderThanTwoParts) {
+TEST_F(OwnTrailTest, ForgetsPlacesOlderThanTwoParts) {
   fly(200, {});
   const Eigen::Vector3i there = cube_at(p_W_);
   const Tick left = now_;

@@ -26,7 +26,7 @@ class RepeatedScans {
   explicit RepeatedScans(double member_width_m, double half_rad = 0.0)
       : member_width_m_(member_width_m), half_rad_(half_rad) {}
 
-  /// Which beams of a scan repeat earlier ones: all, or those within an angle of the line along about_W.
+  /// The beams of a scan that repeat earlier ones: all, or those within an angle of the line along about_W.
   struct Repeated {
     bool all = false;
     Vector3d about_W = Vector3d::UnitX();  ///< unit vector; either sense

@@ -34,7 +34,7 @@ BeamScan drawn_scan(const LidarConfig& lidar, std::uint64_t world) {
   return scan;
 }
 
-TEST(ScanBundler, BundlesOfOneBeamProveWhatTheBeamDoes) {
+TEST(ScanBundler, ABundleOfOneBeamProvesTheSameAsTheBeam) {
   const LidarConfig lidar;
   const BeamScan scan = drawn_scan(lidar, 1);
   ScanBundler bundler(lidar, 0.0);
@@ -109,7 +109,7 @@ TEST(ScanBundler, ABundleProvesWhatAllItsBeamsProve) {
   }
 }
 
-TEST(ScanBundler, AHitLimitsHowFarTheNeighboursOfItsBundleAreFreeAround) {
+TEST(ScanBundler, AHitLimitsTheFreeRangeAroundNeighbouringBundles) {
   const LidarConfig lidar;
   RandomStream random(4, "neighbours", 0);
   ScanBundler bundler(lidar);

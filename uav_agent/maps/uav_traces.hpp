@@ -23,7 +23,8 @@
 // ground; one that another UAV's map message reports at once, if it is larger than a body; and one of a UAV
 // that the reporting UAV did not hear, but this one heard all the time.
 // Frame W.   Units: metres, ticks.   Threads: one.   Deterministic.   Source: none; a rule of Skein.
-// Bounded: Config::most_cubes; doubt() keeps the newest quarter of so many. All other cubes stay structure for good.
+// Bounded: Config::most_cubes; doubt() keeps a quarter of this number at most, the newest. All other cubes stay
+// structure for good.
 #pragma once
 
 #include <algorithm>

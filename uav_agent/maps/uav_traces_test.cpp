@@ -200,7 +200,7 @@ TEST_F(UavTracesTest, AUavThatReportsRightPositionsCountsAsHeard) {
 }
 
 // The agent estimates the velocity from the positions, and begins with zero after each gap.
-TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesCountsAsHeardAfterAGapHoweverFastItIs) {
+TEST_F(UavTracesTest, AUavThatReportsNoVelocitiesCountsAsHeardAfterAGapAtAnySpeed) {
   for (int drawn = 0; drawn < 30; ++drawn) {
     Vector3d p_W = drawn_place();
     const Vector3d direction(random_.normal(), random_.normal(), random_.normal());

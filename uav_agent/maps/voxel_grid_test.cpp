@@ -134,7 +134,7 @@ TEST(VoxelGrid, ASegmentPassesTheCubesThatItsPointsLieIn) {
   }
 }
 
-TEST(VoxelGrid, OccupiedCubesHideWhatIsBehind) {
+TEST(VoxelGrid, AnOccupiedCubeBlocksTheView) {
   VoxelGrid grid(Isometry3d::Identity(), {10, 1, 1}, 1.0);
   const Vector3d a(0.5, 0.5, 0.5), b(9.5, 0.5, 0.5);
   EXPECT_TRUE(grid.sees(a, b)) << "unknown cubes do not hide";
@@ -178,7 +178,7 @@ TEST(VoxelGrid, ChunksWithMoreCubesThanAMessageCanNumberAreRefused) {
   EXPECT_TRUE(same(from, to));
 }
 
-TEST(VoxelGrid, MergingGivesTheSameGridInAnyOrderAndAgain) {
+TEST(VoxelGrid, MergingGivesTheSameGridInAnyOrderAndMayBeRepeated) {
   VoxelGrid a = turned_grid(), b = turned_grid();
   GridDraw draw;
   fill(a, 90, draw);

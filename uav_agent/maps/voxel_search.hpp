@@ -17,7 +17,7 @@ using Passable = std::function<bool(VoxelGrid::Id)>;
 
 struct VoxelSearchConfig {
   int max_expansions = 20'000;  ///< chosen: bounds the CPU time
-  /// 1: shortest path; more: found sooner, at most so many times longer. Chosen.
+  /// 1: the shortest path; more: found sooner, and longer by this factor at most. Chosen.
   double heuristic_weight = 1.0;
 };
 

@@ -87,7 +87,7 @@ class WorldMap {
   /// State and teller of a smallest cube, at the finest level that knows it.
   MapLevel::Known known(const Eigen::Vector3i& cube) const;
   Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
-  /// Which smallest cubes of a chunk are occupied and not in doubt. Valid until the map changes.
+  /// The smallest cubes of a chunk that are occupied and not in doubt. Valid until the map changes.
   MapLevel::Structure structure_in(const Cube& chunk) const { return levels_.front()->structure_in(chunk); }
   /// Centre of a smallest cube.
   Vector3d middle_W(const Cube& cube) const { return (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m; }
@@ -154,7 +154,7 @@ class WorldMap {
   Counts counts() const;
 
  private:
-  /// What the map keeps for a chunk: changed_at(), and a cache of which smallest cubes are free, updated on demand.
+  /// The map's note of a chunk: changed_at(), and a cache of its free smallest cubes, updated on demand.
   struct ChunkNote {
     std::uint64_t changed_at = 0, structure_changed_at = 0;
     mutable std::uint64_t read_at = 0;                                ///< changed_at to which free_rows belongs
@@ -195,8 +195,8 @@ class WorldMap {
   BlockTable<ChunkNote> chunks_;
   BlockTable<RegionNote> in_regions_;
   std::vector<Eigen::Vector3i> regions_;
-  /// Where cubes ever were occupied: by region, one bit for each chunk, in the order of chunk_of(); and the box around
-  /// all such cubes, in cubes. For clear_way_m(), which asks of many places far from any structure.
+  /// The chunks in which cubes ever were occupied: by region, one bit for each chunk, in the order of chunk_of(). And
+  /// the box around all such cubes, in cubes. For clear_way_m(), which asks about many places far from any structure.
   BlockTable<std::uint64_t> structured_;
   Cube structure_low_ = Cube::Zero(), structure_high_ = Cube::Zero();
   std::uint64_t changes_ = 0, scans_ = 0;

@@ -70,7 +70,7 @@ class SlowMap {
     }
   }
 
-  /// Where the beam leaves a layer of the next larger cubes, about to_m from where it started.
+  /// Distance at which the beam leaves a layer of the next larger cubes; of all layers, the one nearest to to_m.
   double handed_over_m(const BeamBundle& bundle, std::size_t level) const {
     const double to_m = config_.to_m[level];
     if (level + 1 == config_.to_m.size()) return to_m;
@@ -184,7 +184,7 @@ std::vector<BeamBundle> flood(double half_m) {
   return beams;
 }
 
-TEST(WorldMap, AHitStaysWhenBeamsPassItAndTakesOneFreeCube) {
+TEST(WorldMap, AHitReplacesOneFreeCubeAndStaysWhenBeamsPassIt) {
   WorldMap map(WorldMap::Config{});
   const std::vector<BeamBundle> all = flood(4.0);
   for (int i = 0; i < 60; ++i) map.insert(all, {});  // long enough for tidy() to free blocks of free cells
@@ -212,7 +212,7 @@ TEST(WorldMap, AUavMakesItsOwnPlaceFreeButNothingThatWasHit) {
   EXPECT_EQ(map.at({0.2, 0.2, 1.9}), Space::unknown);
 }
 
-TEST(WorldMap, AUavThatHasMovedOnLeavesItsPlaceUnknown) {
+TEST(WorldMap, AVacatedPlaceIsUnknownUntilBeamsProveIt) {
   WorldMap map(WorldMap::Config{});
   const std::vector<Eigen::Vector3f> hits_W = {{3.1F, 0.1F, 0.1F}, {3.6F, 0.1F, 0.1F}, {6.1F, 0.1F, 0.1F}};
   map.insert({}, hits_W);
@@ -344,7 +344,7 @@ TEST(WorldMap, RemembersTheTellerOfEachCube) {
   }
 }
 
-TEST(WorldMap, TellsWhereSomethingChanged) {
+TEST(WorldMap, NumbersTheLastChangeOfEachChunkAndRegion) {
   WorldMap map(WorldMap::Config{});
   EXPECT_EQ(map.changed_at({0, 0, 0}), 0U);
   map.set_free({1.0, 1.0, 1.0}, 0.3);
