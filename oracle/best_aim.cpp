@@ -97,7 +97,8 @@ Aim BestAim::find(const Vector3d& ray_W, const Vector3d& n_W, const std::functio
   Try best{0.0, 0.0, look({ray_W, n_W, 0.0, allowed}, 0.0)};
   if (best.aim.q >= 1.0) return best.aim;
   // The best aim in each quarter of the picture: as the worse of two resolutions counts, each quarter has a local
-  // maximum of its own. Twice, as headings away from the point also show it if it is far below or above.
+  // maximum of its own. Each quarter counts twice, since headings away from the point, too, show it if it is far below
+  // or above.
   std::array<Try, 8> hills;
   for (int i = -kTurns / 2; i < kTurns / 2; ++i) {
     const double turn = i * kTurnStep;

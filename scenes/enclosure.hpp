@@ -10,7 +10,8 @@
 namespace skein::sim {
 
 /// Looks for a way out: traces rays in all directions from the place, then from places close to the hits, and so on,
-/// from up to 1000 places in each room (what one place sees). The structure need not be closed or wound consistently.
+/// from up to 1000 places in each room. A room is all that is in sight of its first place. The structure need not be
+/// closed or wound consistently.
 /// Errs on the side of "not enclosed": any gap that a ray passes counts as a way out, even if no UAV fits through it,
 /// and a maze of more than 30 rooms or 2000 places is not searched to its end.
 /// Pure; safe from any thread. Takes some microseconds in the open, half a second in a hall, two seconds in a maze.

@@ -175,8 +175,8 @@ class PlainGltf {
     return copied_["meshes"].size() - 1;
   }
 
-  /// All vertices; or one for each corner if these are fewer, and then the corners are numbered anew: many primitives
-  /// may share the vertices of a whole model.
+  /// Reads all vertices. If there are fewer corners than vertices, reads one vertex for each corner instead, and
+  /// numbers the corners anew: many primitives may share the vertices of a whole model.
   std::vector<float> read_positions(const Elements& vertices, std::vector<std::uint32_t>& corners) const {
     const bool some = corners.size() < vertices.count;
     const std::size_t count = some ? corners.size() : vertices.count;

@@ -22,10 +22,10 @@ constexpr double kWindMemoryS = 20.0, kPowerMemoryS = 10.0;       ///< time cons
 constexpr double kCalmMps = 1.0;          ///< gusts below this are no reason to fly slower; chosen
 constexpr double kLeastSpeedShare = 0.5;  ///< of the planned speed, which gusts leave; chosen
 constexpr double kLeastGroundMps = 1.0;   ///< assumed over ground against any wind; chosen
-constexpr double kLostPerHeadwind = 0.1;  ///< assumed loss of speed over ground, of the headwind; chosen
+constexpr double kLostPerHeadwind = 0.1;  ///< assumed loss of speed over ground, as a share of the headwind; chosen
 constexpr double kMarginS = 8.0;          ///< added to the estimated time of the way down; chosen
-constexpr double kMostPower = 4.0;    ///< of hover; chosen: a faster fall of the charge is a loss, which does not go on
-constexpr double kSwapCharge = 0.01;  ///< least rise of the charge that is another battery; chosen
+constexpr double kMostPower = 4.0;        ///< times that of hover; chosen: a faster fall of the charge is a single loss
+constexpr double kSwapCharge = 0.01;      ///< least rise of the charge that is another battery; chosen
 
 double square(double x) { return x * x; }
 double in_steps_m(double error_m) { return kErrorStepM * std::ceil(error_m / kErrorStepM - kRounding); }

@@ -9,7 +9,7 @@ namespace skein::agent {
 namespace {
 
 constexpr std::int64_t kShowing = -3;  ///< id of the goals of showing; numeric
-constexpr double kLowM = 1.0;          ///< a UAV that has left its start, and is higher above it, has risen; chosen
+constexpr double kLowM = 1.0;          ///< a UAV that has left its start and is higher above it has risen; chosen
 constexpr double kColumnTopM = 6.0;    ///< height of the space above a start that is shown; chosen
 /// Offsets of the places to hover from the photographer: horizontal distance, and heights to try in this order. From
 /// there a LiDAR sees the column well, unless a roof is in between. Chosen.

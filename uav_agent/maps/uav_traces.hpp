@@ -37,7 +37,8 @@
 
 namespace skein::agent {
 
-/// b in the rule above: how far from a UAV's centre the centre of a cube may be in which a beam hits it [m].
+/// b in the rule above: greatest distance from a UAV's centre to the centre of a cube in which a beam may hit the UAV
+/// [m].
 double seen_radius_m(double body_radius_m, double cell_m, double margin_m);
 
 class UavTraces {
