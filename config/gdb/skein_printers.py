@@ -80,8 +80,8 @@ def printers():
 
 
 def add_source_folders():
-    """Debug information names source files from the root of the tree, wherever that lies: here, or where the package
-    skein-source has it."""
+    """Tells gdb where the root of the source tree is, because debug information names source files relative to it: the
+    tree that contains this file, or the folder of the package skein-source."""
     here = os.path.abspath(__file__)
     for levels, below in ((3, "."), (5, "src/skein")):
         root = here

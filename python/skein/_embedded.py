@@ -32,9 +32,9 @@ _OTHERS = ("site-packages", "dist-packages")
 
 
 def _open_streams() -> None:
-    """Opens sys.stdout and sys.stderr if Python considers them closed. In one process, C's streams lead each thread to
-    its own log and have no descriptors. Planners in Python run one at a time; then descriptors 1 and 2 lead to the
-    planner's log."""
+    """Opens sys.stdout and sys.stderr if Python considers them closed. It does if all agents share one process, because
+    C's streams then write to the log of the calling thread and have no descriptors. Planners in Python run one at a
+    time, and while one runs, descriptors 1 and 2 lead to its log."""
     for descriptor, name in ((1, "stdout"), (2, "stderr")):
         if getattr(sys, name) is not None:
             continue

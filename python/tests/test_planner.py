@@ -128,8 +128,8 @@ def test_peers_have_fields_that_say_how_accurate_they_are(tmp_path: Path, condit
         assert 0 <= run.trajectories["charge"].min() < 1 == run.trajectories["charge"].max()
 
 
-def test_check_planner_finds_a_planner_that_depends_on_the_order_of_a_set(tmp_path: Path) -> None:
-    """The order depends on the seed of hashes. check-planner names step, UAV and field of the first difference."""
+def test_the_hash_seed_changes_the_flight_of_a_planner_that_depends_on_the_order_of_a_set(tmp_path: Path) -> None:
+    """This is how check-planner finds such a planner. With the same seed of hashes, the flight is the same."""
     (tmp_path / "sets.py").write_text(
         "from skein.planner import *\n"
         "class Sets(Planner):\n"

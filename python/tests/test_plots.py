@@ -37,7 +37,8 @@ def same_files(draw: Callable[[], Any], folder: Path) -> None:
 
 
 @pytest.mark.parametrize("draw", OF_A_RUN, ids=lambda draw: draw.__name__)
-def test_plots_of_a_run(flown: skein.Run, tmp_path: Path, draw: Any) -> None:
+def test_a_plot_of_a_run_draws_into_given_axes_and_saves_the_same_bytes(
+        flown: skein.Run, tmp_path: Path, draw: Any) -> None:
     _, ax = plt.subplots()
     assert draw(flown, ax) is ax
     assert ax.has_data() or ax.images
@@ -48,7 +49,8 @@ def test_plots_of_a_run(flown: skein.Run, tmp_path: Path, draw: Any) -> None:
 
 
 @pytest.mark.parametrize("draw", OF_A_STUDY, ids=lambda draw: draw.__name__)
-def test_plots_of_a_study(study: skein.Study, tmp_path: Path, draw: Any) -> None:
+def test_a_plot_of_a_study_draws_into_given_axes_and_saves_the_same_bytes(
+        study: skein.Study, tmp_path: Path, draw: Any) -> None:
     _, ax = plt.subplots()
     assert draw(study, ax) is ax
     same_files(lambda: draw(study), tmp_path)

@@ -26,7 +26,7 @@ def test_a_run_has_the_values_of_its_result(flown: skein.Run) -> None:
     assert f"towers, seed 2, completed: score {flown.score:.1f}" in repr(flown)
 
 
-def test_its_tables_add_up(flown: skein.Run) -> None:
+def test_the_tables_of_a_run_add_up(flown: skein.Run) -> None:
     assert flown.points["score"].sum() == pytest.approx(flown.score)
     assert flown.timeline["score"][-1] == pytest.approx(flown.score, abs=1e-6)
     assert flown.timeline["points"][-1] == flown.result["points_detected"] == (flown.points["score"] > 0).sum()

@@ -53,7 +53,7 @@ def test_a_fleet_has_the_attributes_of_a_parallel_env(fleet: skein.Fleet) -> Non
         fleet.observation_space("raffles")
 
 
-def test_an_episode_from_reset_to_its_end(fleet: skein.Fleet) -> None:
+def test_an_episode_keeps_the_interface_from_reset_to_its_end(fleet: skein.Fleet) -> None:
     observations, infos = fleet.reset(seed=5)
     assert fleet.agents == LEARNERS and fleet.num_agents == 2
     assert observations.keys() == infos.keys() == set(LEARNERS)
@@ -139,7 +139,7 @@ def test_only_fork_copies_a_fleet(fleet: skein.Fleet) -> None:
         assert other.truth.step == fleet.truth.step
 
 
-def test_render(fleet: skein.Fleet) -> None:
+def test_render_returns_text_only_with_render_mode_ansi(fleet: skein.Fleet) -> None:
     fleet.reset()
     assert fleet.render() is None
     with skein.Fleet("towers", learners=["jurong"], render_mode="ansi", duration=3) as drawn:

@@ -43,7 +43,7 @@ class Step:
 
     def messages(self, topic: str) -> list[Message]:
         """All messages that arrived with this step on a topic of `Client(read=...)` or a radio topic, in order. Raises
-        DamagedError for one that no longer is a message of its type after a link with `corruption`."""
+        DamagedError if a link with `corruption` has changed a message so that it is no message of its type."""
         of = self._client._type_of(topic)
         return [messages.decode(of, payload) for payload in self._payloads(topic)]
 

@@ -58,10 +58,10 @@ def _content(file: io.FileIO) -> bytes:
 class _Process:
     """This program's end of the socket of a fleet's process, and the output of that process.
 
-    Ctrl-C may interrupt each method at any instruction. At any time, this end is closed, or no reply is due, or one is
-    due for which the caller of begin_steps() will wait: a caller that is interrupted between a message and its reply
-    closes this end. The socket itself is the only record of whether this end is closed, so an interrupted let_go()
-    leaves it closed or open, and a further call completes it.
+    Ctrl-C may interrupt each method at any instruction. At any time, one of these holds: this end is closed, no reply
+    is due, or the reply to begin_steps() is due and its caller will wait for it. So a caller that is interrupted
+    between a message and its reply closes this end. The socket itself is the only record of whether this end is
+    closed, so an interrupted let_go() leaves it closed or open, and a further call completes it.
     """
 
     def __init__(self, ours: socket.socket, log: io.FileIO) -> None:

@@ -1,5 +1,5 @@
-// What libskein_step.so offers to the libraries for planners, in C++ and in Python. It is there only if the library is
-// loaded, so look for the symbols with dlsym(). Threads: the node's.
+// Functions that libskein_step.so offers to the libraries for planners, in C++ and in Python. They exist only if
+// libskein_step.so is loaded, so look for them with dlsym(). Threads: the node's.
 #pragma once
 
 #include <stdbool.h>

@@ -219,7 +219,7 @@ rmw_ret_t rmw_take_serialized_message_with_info(const rmw_subscription_t* subscr
 
 rmw_ret_t rmw_wait(rmw_subscriptions_t* subscriptions, rmw_guard_conditions_t* guards, rmw_services_t* services,
                    rmw_clients_t* clients, rmw_events_t* events, rmw_wait_set_t* wait_set, const rmw_time_t* timeout) {
-  // Threads of rclcpp, which watch the graph, wait only for guard conditions.
+  // The threads of rclcpp that watch the graph wait only for guard conditions.
   const bool nodes = (subscriptions != nullptr && subscriptions->subscriber_count > 0) ||
                      (services != nullptr && services->service_count > 0) || skein_ros::in_node_code();
   if (!steps() || !nodes) {

@@ -30,13 +30,13 @@ bool is_python() {
   return initialized != nullptr && initialized() != 0;
 }
 
-/// The exit code of a Python program with an exception that it did not catch, as that of rclpy.spin() at the run's end.
+/// 1 is the exit code of a Python program that does not catch an exception, as that of rclpy.spin() at the run's end.
 void forgive_exception(int code, void*) {
   if (code == 1) exit_at_once(0);
 }
 
-/// In a secured fleet, the last participant of Fast DDS is destroyed with the static objects, when OpenSSL has gone,
-/// and would still encrypt what it sends.
+/// In a secured fleet, Fast DDS destroys its last participant together with the static objects. The participant would
+/// then encrypt its last messages although OpenSSL is gone, so the process ends before.
 void end_before_static_objects(int code, void*) { exit_at_once(code); }
 
 }  // namespace
@@ -50,7 +50,7 @@ void end_node() {
   struct sigaction action = {};
   ::sigaction(SIGTERM, nullptr, &action);
   if (action.sa_handler == SIG_DFL) exit_at_once(0);
-  // The handler that is registered last runs first, and before those that were registered earlier.
+  // The handler that is registered last runs first, before those of the node.
   if (is_secured()) ::on_exit(end_before_static_objects, nullptr);
   if (is_python()) ::on_exit(forgive_exception, nullptr);
   ::raise(SIGTERM);
