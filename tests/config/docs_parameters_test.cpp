@@ -106,7 +106,8 @@ void expect_bounds(const std::string& cell, const DescribedKey& key, const std::
   EXPECT_EQ(match.length(1) > 0, key.bounds.lo_open) << name;
 }
 
-/// Checks a cell. It has a value for each key of its row, or one value for all. If a key has no value, it has words.
+/// Checks a cell, which has a value for each key of its row, or one value for all. For a key without a value, the cell
+/// has words.
 void expect_value(const ParameterRow& row, std::size_t column, std::size_t i, const std::string& expected) {
   const std::vector<std::string> values = split(row.cells.at(column));
   std::string value = values.size() == row.keys.size() ? values.at(i) : row.cells.at(column);

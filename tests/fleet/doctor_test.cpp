@@ -117,7 +117,7 @@ TEST_F(Doctor, AResultsFolderThatCannotBeWrittenFails) {
   EXPECT_EQ(answer.verdict("results folder"), "FAIL") << answer.out;
 }
 
-TEST_F(Doctor, WrongInputIsExitCodeTwo) {
+TEST_F(Doctor, WrongInputEndsWithExitCodeTwo) {
   for (const char* words : {"--scenario nowhere", "--network '{mars: all}'", "--network nowhere.yaml", "--domain 0",
                             "--seconds 3", "net", "net --network host", "nett"}) {
     const Answer answer = ask(words);

@@ -1,4 +1,5 @@
-// What every UAV computes alike from the same list of starts: teams, their regions, and the sections of a region.
+// Computations with the same result on every UAV, from the same list of starts: teams, their regions, and the sections
+// of a region.
 // Pure, no ROS.   Frame: W world (ENU).   Units: m.
 #pragma once
 

@@ -22,7 +22,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kMatchPoll{2};
 constexpr milliseconds kIdlePoll{500};
-constexpr seconds kLinger{5};  // so long may the last answer take to arrive
+constexpr seconds kLinger{5};  // the last answer may take this long to arrive
 constexpr seconds kNotice{10};
 
 std::int64_t ns(const builtin_interfaces::msg::Time& time) { return time.sec * 1'000'000'000LL + time.nanosec; }
