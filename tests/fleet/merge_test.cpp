@@ -107,7 +107,7 @@ TEST_F(Merge, AStationThatAFaultKilledForGoodGetsItsScoreFromTheJournal) {
   EXPECT_EQ(comparable(result), comparable(launched)) << Json::diff(comparable(launched), comparable(result));
 }
 
-TEST_F(Merge, DamagedReportsAreRefusedWithAMessage) {
+TEST_F(Merge, DamagedReportsAreMergedOrRefusedWithAMessage) {
   fly();
   const Json whole = merged();
   std::map<fs::path, std::string> texts;

@@ -205,9 +205,9 @@ TEST_F(Secure, AgentsCannotReadFilesOfOtherProgramsOrGroundTruth) {
 
 TEST_F(Secure, AgentsCannotReadGroundTruthOfEarlierRuns) {
   if (!is_root()) GTEST_SKIP() << "agents have users of their own only when the launcher is root";
-  // Ground truth of earlier runs: an unsecured run of this launcher; a run as left by an ordinary user or an older
-  // version; in a cache that agents can enter, a world that is generated now, one that was left readable, and its
-  // estimate.
+  // Places with ground truth of earlier runs: the folder of an unsecured run ("earlier"); the folder of a run that an
+  // ordinary user or an older version has left readable ("older"); and a cache that agents can enter, with a world that
+  // was left readable, its estimate, and the world that this test's last flight generates.
   const fs::path cache = folder() / "open_cache", worlds = cache / "skein/worlds";
   const Environment open_cache = {{"XDG_CACHE_HOME", cache}};
   run("earlier", {scenario_, "--duration", "5", "--planner", "hover"});

@@ -82,13 +82,13 @@ double distance(const Json& a, const Json& b) {
 
 void Viewer::expect_where_they_were(const SkeinRun& run) const {
   std::size_t compared = 0;
-  std::map<long, const Json*> by_tenth;
+  std::map<long, const Json*> by_exchange;
   for (const Json& sample : samples_.at("/tf")) {
-    by_tenth[std::lround(sample["stamp"].get<double>() / kExchange_s)] = &sample["frames"];
+    by_exchange[std::lround(sample["stamp"].get<double>() / kExchange_s)] = &sample["frames"];
   }
   for (const auto& row : read_csv(run.dir() / "trajectories.csv")) {
-    const auto frames = by_tenth.find(std::lround(std::stod(row.at("time_s")) / kExchange_s));
-    if (frames == by_tenth.end()) continue;
+    const auto frames = by_exchange.find(std::lround(std::stod(row.at("time_s")) / kExchange_s));
+    if (frames == by_exchange.end()) continue;
     const Json& frame = frames->second->at(row.at("uav") + "/base_link");
     EXPECT_EQ(frame["parent"], "world");
     EXPECT_LT(distance(frame["position"], {std::stod(row.at("x")), std::stod(row.at("y")), std::stod(row.at("z"))}),
@@ -192,7 +192,7 @@ TEST_P(Viewer, SeesTheRunAsItIsAndDoesNotChangeIt) {
   expect_delivered_points(seen);
 }
 
-TEST_P(Viewer, ThatIsStoppedDelaysNoProgram) {
+TEST_P(Viewer, DelaysNoProgramWhileItIsStopped) {
   SkeinRun& seen = run_with_viewer(SIGSTOP);
   expect_untouched(seen, run("alone", flight()));
 }
