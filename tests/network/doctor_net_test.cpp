@@ -174,7 +174,7 @@ TEST_F(DoctorNet, WithoutPeersTheDoctorTriesMulticast) {
   EXPECT_EQ(code("a"), 0) << all_said();
 }
 
-TEST_F(DoctorNet, WrongInputIsExitCodeTwo) {
+TEST_F(DoctorNet, WrongInputEndsWithExitCodeTwo) {
   for (const Arguments& wrong : {Arguments{"--only", "b"},
                                  {"--network", "eth9"},
                                  {"--network", "{c: all}"},

@@ -181,7 +181,7 @@ TEST_F(Place, AKilledLauncherLeavesNothingOnAnyHost) {
   EXPECT_TRUE(eventually([&] { return processes_of(folder() / "run").empty(); }));
 }
 
-TEST_F(Place, ACommandOfTheUsersAndWhatItStartsEndWithTheRun) {
+TEST_F(Place, AUsersCommandAndItsChildrenEndWithTheRun) {
   // The command leaves a child in another session.
   ChildProcess& launcher =
       fly("run", {"--place", "jurong=b", "--duration", "10", "--agent-timeout", "10"},
@@ -287,7 +287,7 @@ TEST_F(Place, AHostOnWhichTooFewFilesMayBeOpenIsNamedWithTheLimit) {
   EXPECT_EQ(raised.wait().code, 0) << raised.err();
 }
 
-TEST_F(Place, WrongInputIsExitCodeTwoAndStartsNothing) {
+TEST_F(Place, WrongInputEndsWithExitCodeTwoAndStartsNothing) {
   const std::filesystem::path other =
       write("other/skein", "#!/bin/sh\nexec env SKEIN_BIN_DIR=" + (folder() / "other").string() + " " +
                                program("skein") + " \"$@\"\n");
