@@ -1,5 +1,4 @@
-"""A ROS 2 node that sends commands to a UAV, and a radio message, without taking part in the lock-step, until it has no
-subscriber left.
+"""A ROS 2 node outside the lock-step. It sends commands to a UAV and radio messages until it has no subscriber left.
 
     commander.py UAV FILE     writes FILE.ready once both of its topics have a subscriber
 """

@@ -1,4 +1,4 @@
-"""A ROS 2 node that knows nothing of Skein and runs freely, outside the lock-step: it makes its UAV climb.
+"""A ROS 2 node without Skein's packages, outside the lock-step: it makes its UAV climb.
 
     free_node.py UAV FILE HEIGHT_M COMMANDS [stall|reject]
 

@@ -84,7 +84,7 @@ std::string with_domains_of(const ChildProcess& fleet, const std::string& text) 
   return std::regex_replace(text, std::regex("ROS_DOMAIN_ID=42"), "ROS_DOMAIN_ID=" + std::to_string(jurong));
 }
 
-TEST_P(RosPageTyped, IsFollowed) {
+TEST_P(RosPageTyped, HasCommandsThatSucceed) {
   int followed = 0;
   for (const PageBlock& block : blocks_of(source_path(GetParam().first))) {
     if (block.is_file()) std::ofstream(checkout() / block.name) << block.text;

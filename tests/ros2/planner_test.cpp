@@ -44,7 +44,7 @@ TEST_F(RosPlanner, FliesTheSameOverAllMiddlewaresAndVendors) {
   EXPECT_EQ(digests.size(), 1U);
 }
 
-TEST_F(RosPlanner, InPythonFliesBesideANodeThatKnowsNothingOfSkein) {
+TEST_F(RosPlanner, InPythonFliesBesideAnOrdinaryRosNode) {
   const std::string climber = "ros:skein_ros/run_in_step libplain_node.so:plain::Climber --ros-args -p height_m:=4.0";
   const Arguments flight = {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/climb.py,sentosa=" + climber,
                             "--duration", "20"};
@@ -63,7 +63,7 @@ TEST_F(RosPlanner, InPythonFliesBesideANodeThatKnowsNothingOfSkein) {
   EXPECT_EQ(digests.size(), 1U);
 }
 
-TEST_F(RosPlanner, ThatAFaultKillsOrStopsComesBack) {
+TEST_F(RosPlanner, FliesOnAfterAFaultKillsOrStopsIt) {
   const auto faults = write("faults.yaml",
                             "faults:\n"
                             "  - {at_s: 4, until_s: 6, kill: jurong}\n"
@@ -92,7 +92,7 @@ std::vector<std::string> words_in(const std::filesystem::path& file) {
 
 // The fleet does not wait for a node that a fault keeps away from the start on; it joins later, and flies identically
 // each time.
-TEST_F(RosPlanner, ThatJoinsLateFlies) {
+TEST_F(RosPlanner, FliesIfItJoinsLate) {
   const auto faults = write("faults.yaml", "faults:\n  - {at_s: 0.05, until_s: 6, kill: jurong}\n");
   const Arguments flight = {"towers",   "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--duration", "20",
                             "--faults", faults};
@@ -107,7 +107,7 @@ TEST_F(RosPlanner, ThatJoinsLateFlies) {
 }
 
 // The node is killed from outside, and restarted by hand with the command and the environment from the launcher.
-TEST_F(RosPlanner, ThatIsKilledAndStartedAgainByHandFliesOn) {
+TEST_F(RosPlanner, FliesOnAfterItIsKilledAndRestartedByHand) {
   for (const auto* middleware : kMiddlewares) {
     SkeinRun& fleet = start_with(middleware, middleware,
                                  {"towers", "--planner", "hover,jurong=ros:skein_ros_examples/circle", "--clock",
@@ -164,7 +164,7 @@ TEST_F(RosPlanner, FliesInASecuredFleetOfItsVendor) {
 }
 
 // The fleet waits for a slow node, and the result is the same.
-TEST_F(RosPlanner, ThatIsSlowDoesNotChangeTheFlight) {
+TEST_F(RosPlanner, FliesTheSameIfItAnswersSlowly) {
   std::set<std::string> digests;
   for (const char* what : {"nothing", "hesitate"}) {
     const std::string node = "exec:python3 " + source_path("tests/ros2/odd_node.py") + " " + what;
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(Oddities, OddRosPlanner,
                                          Oddity{"stall", "did not answer"}),
                          [](const auto& oddity) { return oddity.param.what; });
 
-TEST_F(RosPlanner, ThatDoesNotExistIsNamedBeforeAnythingStarts) {
+TEST_F(RosPlanner, IsRefusedBeforeTheStartIfItDoesNotExist) {
   const auto expect_error = [&](const std::string& planner, const std::string& word) {
     SkeinRun& refused = run_with("cyclonedds", "refused", {"towers", "--planner", planner, "--force"}, 2);
     EXPECT_NE(refused.err().find(word), std::string::npos) << refused.err();

@@ -70,7 +70,7 @@ class FreeNodes : public WorkspaceTest, public testing::WithParamInterface<std::
   }
 };
 
-TEST_P(FreeNodes, ThatStartLateOrRestartFlyTheirUav) {
+TEST_P(FreeNodes, FlyTheirUavIfTheyStartLateOrRestart) {
   SkeinRun& fleet = start_fleet();
   start_free_node(fleet, "first", "cyclonedds", "3 60");
   const Json first = published("first");
@@ -97,7 +97,7 @@ TEST_P(FreeNodes, ThatStartLateOrRestartFlyTheirUav) {
   EXPECT_NE(fleet.out().find(kTrajectory), std::string::npos) << fleet.out();
 }
 
-TEST_P(FreeNodes, ThatStallSendLateCommandsAndThenFlyOn) {
+TEST_P(FreeNodes, SendLateCommandsAfterAStallAndFlyOn) {
   SkeinRun& fleet = start_fleet();
   start_free_node(fleet, "stalls", GetParam() == "fastdds" ? "cyclonedds" : "fastrtps", "4 80 stall");
   const Json said = published("stalls");
@@ -109,7 +109,7 @@ TEST_P(FreeNodes, ThatStallSendLateCommandsAndThenFlyOn) {
   EXPECT_GT(result["uavs"][0]["distance_m"], 3.0);
 }
 
-TEST_P(FreeNodes, AreToldHowManyCommandsAreRejected) {
+TEST_P(FreeNodes, SendInvalidCommandsThatAreRejectedAndCounted) {
   SkeinRun& fleet = start_fleet();
   start_free_node(fleet, "rejected", "cyclonedds", "3 60 reject");
   const Json said = published("rejected");

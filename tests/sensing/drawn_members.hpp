@@ -1,4 +1,4 @@
-// Counts how many structural members, drawn at random into tubes that a map calls free, the LiDAR has not seen.
+// Draws random structural members into tubes that a map calls free, and counts those that the LiDAR has not seen.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A UAV whose position is not received flies within sight of a LiDAR, among short poles that look the same in a map.
+// A UAV whose position is not received flies within sight of a LiDAR, among short poles that look like a UAV in a map.
 // Later its position is received again, elsewhere. Checks what the map then contains of its trace, and of the poles.
 #include <gtest/gtest.h>
 
@@ -66,8 +66,8 @@ struct Seen {
   std::size_t left = 0;       ///< of these, cubes that are still occupied at the end
   std::size_t free = 0;       ///< of these, cubes that are free at the end
   std::size_t poles = 0;      ///< cubes of poles that were occupied when it was received again
-  std::size_t lost = 0;       ///< of these, cubes that are unknown at the end
-  std::size_t pole_free = 0;  ///< cubes of poles that were free at any time since
+  std::size_t lost = 0;       ///< of these, cubes that are not occupied any more at the end
+  std::size_t pole_free = 0;  ///< how often since then a cube of a pole, or a tube around one of its points, was free
 };
 
 class Passing {

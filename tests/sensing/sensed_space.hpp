@@ -35,7 +35,7 @@ struct Member {
   double length_m = 2.0, width_m = 0.05;
 };
 
-/// A map that uses every single beam, with voxels of 0.5 m everywhere: the maps that fly must never call more free.
+/// A map that uses every single beam, with voxels of 0.5 m everywhere: the reference for the map on board.
 agent::WorldMapper::Config exact_map();
 
 class SensedSpace {

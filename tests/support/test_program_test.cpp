@@ -46,7 +46,7 @@ TEST(TestsInTurn, EveryTurnHasAllParametersOrOnlySomeIfAligned) {
   }
 }
 
-TEST(TestsInTurn, WithHalvesEachTestHasItsTurnOnceInTwiceAsMany) {
+TEST(TestsInTurn, WithHalvesEachTestHasItsTurnOnceInTwiceAsManyTurns) {
   for (std::size_t turns = 1; turns <= 5; ++turns) {
     for (const std::size_t half : {0, 1}) {
       std::map<std::string, int> count;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Runs a separate Slurm on this machine: munged, slurmctld, and a slurmd for each of two nodes with one core. Uses
-# neither systemd nor cgroups. Runs until a signal ends it; no process of it remains then, also not if it is killed.
+# neither systemd nor cgroups. Runs until a signal ends it. None of its processes remains then, even if it is killed.
 #   real_slurm.sh FOLDER     FOLDER/slurm.conf is the file for SLURM_CONF; FOLDER/ready appears once Slurm accepts jobs
 # A test may kill the process in FOLDER/slurmctld.pid: it is restarted. If a test kills the process in
 # FOLDER/node-n2.pid, all processes of this node die, as in a power failure, and the node stays down.

@@ -3,8 +3,9 @@
 
 Supports the options that Skein uses: --array with %N, --dependency=afterany, --job-name, --output, --open-mode,
 --requeue, --signal, --time, --exclude, --parsable. Its state is in the folder STAND_IN_SLURM, with the files `nodes`
-(names, one per line) and `limits` (the greatest size of an array). A file `time is over` ends, as its time limit would,
-the next task that has one. Each job has a process of its own that runs its tasks, one on each node at a time.
+(names, one per line) and `limits` (the greatest size of an array). A file `time is over` ends the next task that has a
+time limit, as if the limit were reached. Each job has a process of its own that runs its tasks, one on each node at a
+time.
 Unknown options are errors, as with the real Slurm.
 """
 import fcntl

@@ -1,5 +1,5 @@
-// Studies with `--executor`, with short flights of real fleets: for each engine, and whatever is killed meanwhile,
-// digests, scores and tables are those of the command without an engine.
+// Studies with `--executor`, with short flights of real fleets: with each engine, and even if programs are killed
+// meanwhile, digests, scores and tables are those of the command without an engine.
 #include "sweep_fixture.hpp"
 #include "tests/fleet/small_disk.hpp"
 

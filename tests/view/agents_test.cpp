@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 
 const std::string kAgent = "jurong";
 
-// The requests that an agent tries; each line is an answer. KEY is a key from any file that the agent can read. It
-// repeats the requests until the station serves the page; before that, connections wait.
+// The requests that an agent tries; each printed line is a result. KEY is a key from any file that the agent can read.
+// If the station does not serve the page yet, a connection waits until it does.
 constexpr const char* kLooking = R"sh(
 ask() {  # TARGET MORE BYTES
   exec 3<>/dev/tcp/127.0.0.1/$PORT || return

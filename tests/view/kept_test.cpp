@@ -65,7 +65,7 @@ TEST_F(KeptRun, RefusesInvalidOptions) {
   EXPECT_FALSE(fs::exists(folder() / "flight.html") || fs::exists(folder() / "flight.mp4"));
 }
 
-TEST_F(KeptRun, CanBeShownBesideAnotherOneOnOneClock) {
+TEST_F(KeptRun, IsShownBesideAnotherRunOnOneClock) {
   const SkeinRun& a = run("a", joined(kKeptFlight, {"--no-oracle"}));
   const SkeinRun& b =
       run("b", {"towers", "--planner", "star", "--duration", "60", "--one-process", "--no-oracle", "--no-report"});

@@ -8,13 +8,13 @@ import {endBrowser, letGo, openRun, pausedByItself, stateOf, until, waitUntil} f
 const [web, chromium, door, run] = process.argv.slice(2);
 const {browser, page} = await openRun([web, chromium, door]);
 const expect = (good, what) => good || console.log(what);
-const kKilled = 18 * 400;  // ticks; the station is back by then
+const kBack = 18 * 400;  // ticks; the station is back by then
 
 let loads = 0;
 page.on('load', () => ++loads);
 await pausedByItself(page);
 await letGo(page);
-await until(page, ({state, tick}) => state === 'flies' && tick > kKilled, 'the run flies on after the station is back');
+await until(page, ({state, tick}) => state === 'flies' && tick > kBack, 'the run flies on after the station is back');
 await page.click('#pause');  // so that the run does not end before the events are read
 expect(loads === 1, `the page was loaded ${loads} times`);
 const told = () => page.$$eval('#events li', (all) => all.map((li) => li.textContent).join('\n'));

@@ -77,7 +77,7 @@ TEST_F(WatchedRun, OpensPortsOnlyAtItsStationAndForItsReplay) {
   EXPECT_EQ(unseen.exit_code(), 0);
 }
 
-TEST_F(WatchedRun, EndsWithItsOwnExitCodeWhenItsReplayDoes) {
+TEST_F(WatchedRun, EndsWithItsOwnExitCodeWhenItsReplayEnds) {
   SkeinRun& seen = start("seen", joined(kShort, {"--view", "--speed", "2"}));
   ASSERT_TRUE(seen.wait_until_flying()) << seen.err();
   ::kill(processes_of(seen.dir()).at("uav_agent-changi"), SIGKILL);
