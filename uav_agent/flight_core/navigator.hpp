@@ -57,7 +57,7 @@ class Navigator {
   bool idle() const { return !current_ && goals_.empty(); }
   const std::optional<Goal>& current() const { return current_; }
   /// Whether the UAV has reached the current goal's first waypoint, and flies along Goal::way.
-  bool on_way() const { return on_way_; }
+  bool on_way() const { return current_ && on_way_; }
   /// Index in Goal::way of the waypoint that the UAV flies to; only if on_way().
   std::size_t leg() const { return leg_; }
   /// Outcomes since the last call.

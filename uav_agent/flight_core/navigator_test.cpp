@@ -103,6 +103,18 @@ TEST(Navigator, SaysWhichLegIsBlocked) {
   }
 }
 
+// A planner may withdraw all goals while the UAV flies along one. FlightCore reads current() if on_way() holds.
+TEST(Navigator, IsNotOnAWayAfterThePlannerHasWithdrawnAllGoals) {
+  InAClearing uav;
+  uav.navigator.want({{.id = 3, .way = {{{2.0, 0.0, 10.0}, 2.0}, {{9.0, 0.0, 10.0}, 2.0}, {{16.0, 0.0, 10.0}, 2.0}}}});
+  while (!uav.navigator.on_way() || uav.navigator.leg() < 2) uav.navigate();
+  uav.navigator.want({});
+  EXPECT_FALSE(uav.navigator.on_way());
+  uav.navigate();
+  EXPECT_FALSE(uav.navigator.on_way());
+  EXPECT_FALSE(uav.navigator.current());
+}
+
 // The navigator takes a strategy's changes of the same goal at any time.
 TEST(Navigator, AWayMayChangeWhileItIsFlown) {
   for (std::uint64_t seed = 1; seed <= 15; ++seed) {
