@@ -13,7 +13,7 @@ namespace skein::router {
 
 class CountStore {
  public:
-  /// Opens or creates the file; if it has the counts of another run, all counts begin at 0. What is written survives
+  /// Opens or creates the file; if it has the counts of another run, all counts begin at 0. The written counts survive
   /// the death of this process (not of the machine). In kNowhere (process/files/nowhere.hpp) nothing is kept.
   /// @throws std::system_error when the file cannot be opened or written in full length.
   CountStore(const std::filesystem::path& file, std::size_t nodes, RunId run = RunId::none);
@@ -25,10 +25,10 @@ class CountStore {
   /// step, count as dropped_fault.
   LinkMatrix<LinkCounts> earlier_counts() const;
 
-  /// Call it after each step. @param last  what the router delivers with this step. The file has it as delivered from
-  /// the next step on, because it is lost if the router dies before.
+  /// Call it after each step. @param last  the messages that the router delivers with this step. The file counts them as
+  /// delivered only from the next step on, because they are lost if the router dies before.
   void save(const LinkGate& gate, const GatedStep& last);
-  /// Why counts are no longer saved; empty: they are.
+  /// The reason why counts are no longer saved; empty while they are saved.
   const std::string& write_error() const { return write_error_; }
 
  private:

@@ -33,7 +33,7 @@ enum class LinkLoss {
   overflow  ///< no room in the queue for its bandwidth
 };
 
-/// What a link does to one message whose source and target are linked.
+/// The effect of a link on one message whose source and target are linked.
 struct LinkFate {
   LinkLoss loss = LinkLoss::none;
   std::uint64_t delay_steps = 0;  ///< on top of the one step that every message takes
@@ -41,9 +41,9 @@ struct LinkFate {
   Payload payload = {};           ///< arrives instead of the payload that was sent; null: unchanged
 };
 
-/// What links do to messages, besides that messages need a link at all (Links). The gate calls fate() once for each
-/// message and target, in a fixed order. Random models must key their draws by (link, topic, sequence), so that a
-/// restarted router draws the same.
+/// Decides the effects of links on messages between linked nodes (Links tells which nodes are linked). The gate calls
+/// fate() once for each message and target, in a fixed order. Random models must key their draws by (link, topic,
+/// sequence), so that a restarted router draws the same.
 class LinkModel {
  public:
   virtual ~LinkModel() = default;
@@ -75,8 +75,8 @@ struct Delivery {
 
 /// Messages on one directed link, since the run began if CountStore keeps the counts (else since the router started).
 /// sent + duplicated = delivered + dropped_no_los + dropped_fault + dropped_overflow + those still delayed.
-/// dropped_no_los are those between nodes that were not linked: no line of sight, out of range, or dead. Bytes are
-/// those of the serialised messages with the four of their encapsulation header, without the overhead of DDS.
+/// dropped_no_los counts messages between nodes that were not linked: no line of sight, out of range, or dead. Bytes
+/// are those of the serialised messages, with the four bytes of their encapsulation header, without the overhead of DDS.
 struct LinkCounts {
   std::uint64_t sent = 0, delivered = 0, dropped_no_los = 0, dropped_fault = 0;
   std::uint64_t dropped_overflow = 0, duplicated = 0;
@@ -85,7 +85,7 @@ struct LinkCounts {
   bool operator==(const LinkCounts&) const = default;
 };
 
-/// What leaves the router after step k.
+/// The messages that leave the router after step k.
 struct GatedStep {
   std::vector<Delivery> deliveries;  ///< by source, topic, sequence, target; ties: in the order of sending
   /// SHA-256 over the deliveries in this order, empty when there are none: of each source node, target node, ROS topic

@@ -13,7 +13,7 @@
 
 namespace skein::router {
 
-/// Has another model decide, and records its decisions about messages with capture reports.
+/// Lets another model decide, and records its decisions about messages with capture reports.
 class LinkRecord final : public LinkModel {
  public:
   /// @param scenario   must outlive this.

@@ -29,7 +29,7 @@ class LinkRecordTest : public testing::Test {
   }
   ~LinkRecordTest() override { std::filesystem::remove_all(folder_); }
 
-  /// A router whose links treat all messages like this, from its start to its end.
+  /// Starts a router whose links give each message this fate, sends one message, and ends the router.
   void send(LinkFate fate, std::uint64_t k, const std::string& topic = captures_topic("changi"),
             Node target = kStationNode) {
     RadioRoute route;

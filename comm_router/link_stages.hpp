@@ -37,7 +37,7 @@ class LinkStages final : public LinkModel {
     bool in_burst = false;
   };
 
-  /// What has happened to one message so far on its way through the stages.
+  /// The effects of the stages that one message has passed so far.
   struct Passage {
     double delay_s = 0.0;
     bool twice = false;

@@ -1,4 +1,5 @@
-// Links that lose, delay, duplicate and cut messages: statistics, windows, and that only the keys decide.
+// Links that lose, delay, duplicate and cut messages: their statistics, the steps in which they act, and that every
+// random draw depends on its key alone.
 #include "comm_router/link_stages.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +57,7 @@ TEST(LinkStages, WithoutEffectsLinksAreIdeal) {
   EXPECT_TRUE(same(stages.fate(3, kRoute, kB, message(0)), {}));
 }
 
-TEST(LinkStages, LossHasItsProbability) {
+TEST(LinkStages, MessagesAreLostWithTheProbabilityOfTheEffect) {
   for (const double loss : {0.0, 0.1, 0.5, 0.9, 1.0}) {
     LinkEffect effect;
     effect.loss = loss;
@@ -65,7 +66,7 @@ TEST(LinkStages, LossHasItsProbability) {
   }
 }
 
-TEST(LinkStages, ActsOnItsLinkAndInItsWindowOnly) {
+TEST(LinkStages, AnEffectActsOnItsLinkAndInItsTimeOnly) {
   LinkEffect effect;
   effect.from = {"a"};
   effect.to = {"b"};
@@ -79,7 +80,7 @@ TEST(LinkStages, ActsOnItsLinkAndInItsWindowOnly) {
   }
 }
 
-TEST(LinkStages, ActsOnAllLinksThatItNamesAndOnNoOther) {
+TEST(LinkStages, AnEffectActsOnAllLinksThatItNamesAndOnNoOther) {
   const Scenario scenario = fleet_of({"a", "b", "c"});
   const std::vector<std::vector<std::string>> groups = {{"all"}, {"a"}, {"gcs"}, {"b", "c"}, {"gcs", "a", "c"}};
   for (const auto& from : groups) {
@@ -152,7 +153,7 @@ TEST(LinkStages, BurstsHaveTheirMeanLengthAndFrequency) {
   EXPECT_NEAR(static_cast<double>(lost_steps) / static_cast<double>(bursts), 20.0, 2.0);  // steps of 0.05 s
 }
 
-TEST(LinkStages, BandwidthDelaysAndOverflows) {
+TEST(LinkStages, ALimitedBandwidthDelaysMessagesAndLosesThemWhenItsQueueIsFull) {
   LinkEffect effect;
   effect.bandwidth_bit_s = 8000.0;  // 1,000 bytes a second: 50 a step
   effect.queue_bytes = 250;
@@ -215,7 +216,7 @@ TEST(LinkStages, BlackoutsAndPartitionsCutLinks) {
   EXPECT_FALSE(lost(plan_of(Blackout{"a"}, 1.0, 2.0), 40));
 }
 
-TEST(LinkStages, ActsOnTheTopicsThatItNamesAndOnNoOther) {
+TEST(LinkStages, AnEffectActsOnTheTopicsThatItNamesAndOnNoOther) {
   for (const std::vector<std::string>& named :
        std::vector<std::vector<std::string>>{{"all"}, {"/x"}, {"/x/y"}, {"/y", "/x"}, {"/xy"}}) {
     LinkEffect effect;
@@ -287,7 +288,6 @@ TEST(LinkStages, CorruptionLeavesTheOtherDrawsAsTheyAre) {
   }
 }
 
-// The effects of the fault are the same as if the file had named its time.
 TEST(LinkStages, AWaitingFaultActsAsIfItsTimeHadBeenInTheFile) {
   LinkEffect effect;
   effect.loss = 0.3;
@@ -313,7 +313,7 @@ TEST(LinkStages, AWaitingFaultActsAsIfItsTimeHadBeenInTheFile) {
   }
 }
 
-TEST(LinkStages, StagesActOneAfterTheOther) {
+TEST(LinkStages, DelaysOfSeveralEffectsAddUp) {
   Scenario scenario = two_uavs();
   LinkEffect latency;
   latency.latency_s = 0.1;

@@ -51,7 +51,7 @@ TEST(RadioRate, AFullQueueLosesMessagesAndLeavesTheOtherDirectionFree) {
 }
 
 // A program that was killed receives nothing, but its UAV hovers on in sight, so messages to it still pass its link.
-TEST(RadioRate, MessagesToOneReceiverDelayNoneToTheOthers) {
+TEST(RadioRate, MessagesToOneReceiverDoNotDelayThoseToOthers) {
   constexpr Node kOther = Node{3};
   for (const bool path_loss : {true, false}) {
     Scenario scenario = with_radio(0.001);

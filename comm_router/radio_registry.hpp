@@ -44,7 +44,7 @@ struct RadioReply {
   bool operator==(const RadioReply&) const = default;
 };
 
-/// What the registry asks about the router's DDS endpoints, and what it has the router do with them.
+/// The registry's questions about the router's DDS endpoints, and its orders to open and close them.
 struct RadioEndpoints {
   /// A route is new or has new targets: opens the reader and writers that it lacks.
   std::function<void(std::size_t route)> open;
@@ -108,7 +108,7 @@ class RadioRegistry {
     std::optional<RadioReply> told = {};
   };
 
-  /// What a member has asked for since it joined.
+  /// The requests of a member since it joined.
   struct History {
     std::set<std::size_t> routes;
     std::size_t in_vain = 0;

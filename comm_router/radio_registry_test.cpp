@@ -59,7 +59,7 @@ class Registry : public testing::Test {
                            .lost = [this](SourceId source) { return lost_.contains(source); }}};
 };
 
-TEST_F(Registry, OpensATopicOnceItHasMatchedTheWriter) {
+TEST_F(Registry, ATopicOpensOnceTheRouterHasMatchedTheWriter) {
   hears_.clear();
   registry_.begin_step({sending(kFirst, 5)});
   EXPECT_EQ(opened_.size(), 1U);
@@ -234,7 +234,7 @@ TEST_F(Registry, ALostMemberIsForgotten) {
   EXPECT_TRUE(registry_.end_step().empty());
 }
 
-TEST_F(Registry, AMemberMayAddTargetsAndOnlyForItself) {
+TEST_F(Registry, AMemberMayAddTargetsButNotAskForAnotherNode) {
   EXPECT_EQ(step({sending(kFirst, 1, {"b"})}).at(0).unheard, std::vector<std::string>{"b"});
   EXPECT_EQ(step({sending(kFirst, 2, {"gcs"})}).at(0).unheard, (std::vector<std::string>{"b", "gcs"}));
   RadioRequest false_source = sending(kFirst, 3);

@@ -38,7 +38,7 @@ inline constexpr double kWordPatience_s = 1.0;
 
 class RouterNode final : public bus::ClientNode {
  public:
-  /// @param seed    of the run: what links that are not ideal draw from.
+  /// @param seed    of the run: links that are not ideal draw their random numbers from it.
   /// @param faults  what goes wrong with the links, and when.
   /// @param out     folder for capture_messages.csv (link_record.hpp); empty: it is not written.
   RouterNode(const Scenario& scenario, std::uint64_t seed, int base_domain, bus::Bus& bus, const FaultPlan& faults = {},

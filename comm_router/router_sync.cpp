@@ -14,7 +14,7 @@ constexpr std::size_t kMaxStrangerSamples = 4096;
 /// Limits the memory for a sender that never announces its messages. No step has nearly as many messages on one topic.
 constexpr std::size_t kMaxWaiting = 16 * topics::kRadioDepth;
 
-/// A member answers only the steps that it is asked. A participant with this many answers waiting is not a member.
+/// A member answers only the steps that it is asked to answer. A participant with more waiting answers is not a member.
 constexpr std::size_t kMaxAnswers = 64;
 
 const std::string kAdvice =

@@ -95,7 +95,7 @@ class RouterSync {
   bool waiting() const { return !steps_.empty(); }
   /// How many members have not answered the next step: take() needs a Done, or a Drop, of each of them.
   std::size_t missing_answers() const;
-  /// What take() waits for. Empty when it waits for nothing but the next step.
+  /// The members that take() waits for. Empty when it waits for nothing but the next step.
   std::vector<AwaitedMember> awaited() const;
   /// The participants of which messages have been discarded since the last call: each once for each of the topics on
   /// which it sent too many, or once if all is discarded.
@@ -109,7 +109,8 @@ class RouterSync {
     std::deque<Payload> waiting;
     bool overflowed = false;  ///< samples have been discarded
   };
-  /// What a participant has sent and is not handed out yet. May exist before the step that makes it a member.
+  /// A participant's messages and answers that are not handed out yet. May exist before the step that makes the
+  /// participant a member.
   struct Sender {
     std::map<std::string, Lane> lanes;                     ///< by wire topic
     std::map<std::uint64_t, std::vector<SentCount>> done;  ///< by k
@@ -130,7 +131,7 @@ class RouterSync {
   bool complete(std::uint64_t k, const RadioMember& member) const;
   void queue(SourceId source, const std::string& topic, Payload payload);
   bool counts(const Sender& sender, std::size_t route, const RadioMember& member) const;
-  /// What Done(k) says about its requests and the radio topics on which it may send, by route.
+  /// The counts in the sender's Done(k): of its requests, and of the radio topics on which it may send, by route.
   std::vector<SentCount> radio_counts(const Sender& sender, std::uint64_t k, const RadioMember& member) const;
   void take_messages(std::uint64_t k, const RadioMember& member, StepBatch& batch);
   void forget_the_gone(std::uint64_t k);
@@ -141,7 +142,7 @@ class RouterSync {
   const std::size_t declared_;           ///< number of the scenario's routes, which come first
   std::map<std::uint64_t, Step> steps_;  ///< announced, not yet handed out
   std::map<SourceId, Sender> senders_;
-  std::map<SourceId, std::uint64_t> dropped_from_;  ///< the step from which on it does not count
+  std::map<SourceId, std::uint64_t> dropped_from_;  ///< first step in which the participant does not count
   std::vector<SourceId> members_before_;            ///< of the step that take() last looked at
   std::set<SourceId> gone_;                         ///< participants that never count again
   std::optional<std::uint64_t> last_k_;             ///< handed out last

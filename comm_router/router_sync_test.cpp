@@ -56,7 +56,7 @@ std::vector<std::string> awaited(const RouterSync& sync) {
 /// Events that keep their order among themselves (one writer on one topic).
 using Lane = std::vector<std::function<void(RouterSync&)>>;
 
-/// A fleet that sends at random, loses members and gets them back. It lists what the router must hand out.
+/// A fleet that sends at random, loses members and gets them back. It lists the messages that the router must hand out.
 class Fleet {
  public:
   Fleet(const std::vector<RadioRoute>& routes, std::mt19937& random) : routes_(routes), random_(random) {
@@ -95,7 +95,8 @@ class Fleet {
 
   void join(Node node, const std::string& name) { members_.push_back({name, node, next_source_++, {}}); }
 
-  /// Adds what one member sends in step k. A lost member sends messages, perhaps a false Done, and is dropped.
+  /// Adds the messages and the Done of one member in step k. A lost member sends messages, perhaps a false Done, and is
+  /// dropped.
   void speak(Member& member, std::uint64_t k, bool lost, Round& round) {
     std::vector<SentCount> counts;
     for (const std::size_t r : routes_from(routes_, member.node)) {
@@ -232,7 +233,7 @@ TEST(RouterSync, ADroppedMemberNeverComesBackUnderItsOldIdentity) {
   EXPECT_EQ(describe(*sync.take()), std::vector<std::string>{"1#0:fresh"});
 }
 
-TEST(RouterSync, NamesTheMembersThatItAwaitsAndNoneThatIsGone) {
+TEST(RouterSync, TheRouterNamesTheMembersThatItAwaitsButNoneThatIsGone) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   EXPECT_EQ(sync.missing_answers(), 0U);
@@ -250,7 +251,7 @@ TEST(RouterSync, NamesTheMembersThatItAwaitsAndNoneThatIsGone) {
   EXPECT_EQ(sync.missing_answers(), 0U);
 }
 
-TEST(RouterSync, AStrangerCannotFillTheMemoryNorSpeakLater) {
+TEST(RouterSync, AStrangerCannotFillTheMemoryAndIsIgnoredAsAMemberLater) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   for (int i = 0; i < 10000; ++i) sync.on_radio(66, 1, payload("spam"));
@@ -277,9 +278,10 @@ TEST(RouterSync, ARouteThatIsBoundToAMemberIsNotOpenToItsNeighbour) {
   }
 }
 
+/// Number of messages that the router keeps on one topic, and in all from a participant that is not a member yet.
 constexpr std::size_t kMost = 4096;
 
-/// Step 0, in which uav1 sends so many messages on rt/y and announces all of them.
+/// Begins step 0, in which uav1 sends this number of messages on rt/y and announces all of them.
 void send_in_one_step(RouterSync& sync, std::size_t messages) {
   sync.on_step(0, 0, {{"uav1", 7, Node{1}}}, {});
   const std::size_t y = routes_from(some_routes(), Node{1}).back();
@@ -287,7 +289,7 @@ void send_in_one_step(RouterSync& sync, std::size_t messages) {
   sync.on_done(7, 0, {{"rt/y", messages}});
 }
 
-TEST(RouterSync, AMemberMaySendAsManyMessagesInAStepAsAreKept) {
+TEST(RouterSync, AMemberMaySendAsManyMessagesInAStepAsTheRouterKeeps) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   send_in_one_step(sync, kMost);
@@ -297,7 +299,7 @@ TEST(RouterSync, AMemberMaySendAsManyMessagesInAStepAsAreKept) {
   EXPECT_TRUE(sync.take_excesses().empty());
 }
 
-TEST(RouterSync, NamesTheSenderOfTooManyMessagesAndTheRemedy) {
+TEST(RouterSync, TheRouterNamesTheSenderOfTooManyMessagesAndTheRemedy) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync sync(routes);
   send_in_one_step(sync, kMost + 10);
@@ -314,7 +316,7 @@ TEST(RouterSync, NamesTheSenderOfTooManyMessagesAndTheRemedy) {
   EXPECT_TRUE(sync.take_excesses().empty()) << "take_excesses() has returned them before";
 }
 
-TEST(RouterSync, ReportsWhyAParticipantIsIgnored) {
+TEST(RouterSync, TheRouterReportsWhyItIgnoresAParticipant) {
   const std::vector<RadioRoute> routes = some_routes();
   RouterSync early(routes), hasty(routes);
   for (std::size_t i = 0; i <= kMost; ++i) early.on_radio(66, i % 2, payload("x"));

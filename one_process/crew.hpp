@@ -72,7 +72,7 @@ class Crew {
     std::atomic<std::uint64_t> turns = 0;
     std::atomic<const DeathNotice*> holder = nullptr;
   };
-  /// What became of a program in its turn.
+  /// The state of a program after its turn.
   struct Outcome {
     std::optional<int> code;  ///< exit code, if the program has ended
     int signal = 0;           ///< signal that would have ended a process of its own; 0: none

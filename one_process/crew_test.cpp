@@ -1,5 +1,5 @@
-// The crew with simple programs ("toys"): it provides without processes what a process gives to its program, on one
-// thread and on several.
+// The crew with simple programs ("toys"), on one thread and on several: in one process, each program behaves as in a
+// process of its own.
 #include "one_process/crew.hpp"
 
 #include <fcntl.h>
@@ -123,7 +123,7 @@ class ToyProgram final : public bus::FleetProgram {
   std::string what_;
 };
 
-/// @param  threads
+/// The parameter is the number of threads.
 class CrewTest : public testing::TestWithParam<int> {
  protected:
   CrewTest() : stdout_(::dup(STDOUT_FILENO)), stderr_(::dup(STDERR_FILENO)), workers_(GetParam()) {

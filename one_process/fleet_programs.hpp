@@ -15,7 +15,8 @@ namespace skein::one_process {
 /// More key frames than a large fleet receives in a step.
 inline constexpr std::size_t kFramesRemembered = 256;
 
-/// What the programs share. Desk, gate, score and shelf belong to the owner of a stepped fleet; null: no one steps it.
+/// The objects that the programs share. Desk, gate, score and shelf belong to the owner of a stepped fleet; null: the
+/// fleet is not stepped.
 struct FleetPrograms {
   std::shared_ptr<agent::ReadyFrames> frames = std::make_shared<agent::ReadyFrames>(kFramesRemembered);
   std::shared_ptr<ScenarioShelf> scenarios = std::make_shared<ScenarioShelf>();  ///< for the agents

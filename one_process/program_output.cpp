@@ -109,7 +109,7 @@ ProgramOutput::~ProgramOutput() {
 void ProgramOutput::enter() {
   if (current == this) return;
   if (fd_ >= 0) {
-    std::fflush(stdout);  // of the program before
+    std::fflush(stdout);  // into the log of the previous program
     ::dup2(fd_, STDOUT_FILENO);
     ::dup2(fd_, STDERR_FILENO);
   }

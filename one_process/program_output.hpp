@@ -1,6 +1,6 @@
-// Output of a program that shares its process with others: its log gets what the program logs, and all that reaches
+// Output of a program that shares its process with others: its log gets the program's log lines, and all output to
 // stdout and stderr in its turns. In a turn that a program has alone, descriptors 1 and 2 lead to its log, too. In
-// turns that run in parallel, the streams of C++ and C write to the log of the calling thread's program; what is
+// turns that run in parallel, the streams of C++ and C write to the log of the calling thread's program; output that is
 // written to descriptor 1 or 2 directly then goes to the log of the process.
 // Threads: enter_beside() and leave_beside() from any; all others from the main thread, which runs the rounds.
 #pragma once
@@ -27,7 +27,7 @@ class ProgramOutput {
 
   /// Begins a turn alone: from now on all output of the process goes to this program's log.
   void enter();
-  /// Begins a turn in parallel: what this thread writes to streams goes to this program's log until leave_beside().
+  /// Begins a turn in parallel: this thread's output to streams goes to this program's log until leave_beside().
   void enter_beside() const;
   static void leave_beside();
   /// The program output that this thread writes to; null: that of the process.

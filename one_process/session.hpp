@@ -4,8 +4,8 @@
 // are JSON except for "s COUNT", "k" (done) and "e":
 //
 //   {"do": "reset", "seed": N}  a copy of the process starts a fleet. Three descriptors come with the message: the
-//                               copy's own socket, a memfd for its memory block, and a file for what its programs
-//                               print. The copy sends its hello on its own socket.
+//                               copy's own socket, a memfd for its memory block, and a file for the output of its
+//                               programs. The copy sends its hello on its own socket.
 //   {"do": "fork"}              the same, but the copy continues the fleet in its present state.
 //   s COUNT                     the fleet flies COUNT steps. Reply: "k", or "e" when the run has ended.
 //   {"do": "result"}, {"do": "scene"}  see SteppedFleet. A memfd comes with the message; the answer is written into it.
@@ -27,7 +27,7 @@
 
 namespace skein::one_process {
 
-/// What the launcher specifies about a fleet that is to be stepped (cli/fleet_command.cpp).
+/// The launcher's description of a fleet that is to be stepped (cli/fleet_command.cpp).
 struct SessionPlan {
   std::vector<shared_lines::Start> programs;
   std::vector<std::string> uavs;  ///< names in fleet order

@@ -36,7 +36,7 @@ std::optional<SessionMessage> SessionSocket::receive() const {
     message.files.resize((cmsg->cmsg_len - CMSG_LEN(0)) / sizeof(int));
     std::memcpy(message.files.data(), CMSG_DATA(cmsg), message.files.size() * sizeof(int));
   }
-  if ((head.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0) {  // the kernel has dropped what did not fit
+  if ((head.msg_flags & (MSG_TRUNC | MSG_CTRUNC)) != 0) {  // the kernel has dropped the rest
     for (const int file : message.files) ::close(file);
     throw std::length_error("a message of this session is too long: it must have at most " + std::to_string(kMaxBytes) +
                             " bytes and " + std::to_string(kMaxDescriptors) + " descriptors");

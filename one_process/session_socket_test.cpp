@@ -22,7 +22,7 @@ class SessionSocketTest : public testing::Test {
     for (const int end : ends_) ::close(end);
   }
 
-  /// Sends a message with so many descriptors of /dev/null, as the other program does.
+  /// Sends a message with this number of descriptors of /dev/null, as the other program does.
   void say(std::string text, std::size_t files) const {
     std::array<int, 16> given{};
     for (std::size_t i = 0; i < files; ++i) given.at(i) = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -79,7 +79,7 @@ TEST_F(SessionSocketTest, AMessageArrivesWithItsDescriptorsOrIsRefusedWhole) {
   }
 }
 
-TEST_F(SessionSocketTest, AClosedEndIsNoMessage) {
+TEST_F(SessionSocketTest, ASocketWhoseOtherEndIsClosedReceivesNoMessage) {
   ::close(std::exchange(ends_[1], ::open("/dev/null", O_RDONLY | O_CLOEXEC)));
   EXPECT_FALSE(socket_.receive());
   socket_.send("nobody hears it");

@@ -6,7 +6,7 @@
 
 namespace skein::one_process {
 
-/// @returns a function that runs a loop in parallel, for a program while no other program has a turn.
+/// @returns a function that runs a loop in parallel, for a program that has its turn alone.
 /// @param workers  must outlive the result.
 ForEach shared_turn(Workers& workers);
 

@@ -53,9 +53,9 @@ class SteppedFleet {
   void step(std::uint64_t steps);
   /// Whether the run has ended.
   bool over() const;
-  /// Digest, score, and what each UAV has done so far; see Truth.
+  /// Digest, score, and each UAV's totals so far; see Truth.
   nlohmann::json result() const;
-  /// Boxes and interest points, and what was delivered of each point; see Truth.
+  /// Boxes and interest points, and the quality delivered of each point; see Truth.
   nlohmann::json scene() const;
   /// See Crew::turns(). May be called in any thread and in signal handlers.
   std::uint64_t turns() const;

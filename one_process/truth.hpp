@@ -30,7 +30,7 @@ class Truth {
 
   /// Writes the present state into a block with the layout of lay_out().
   void write(std::byte* block) const;
-  /// Digest, score, and what each UAV has done.
+  /// Digest, score, and each UAV's totals so far.
   nlohmann::json result() const;
   /// Boxes and interest points: for each point, the quality delivered and earned, and whether it was ever seen.
   nlohmann::json scene() const;

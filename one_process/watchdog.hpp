@@ -1,5 +1,5 @@
-// Finds a program that does not end its turn. It blocks all other programs of the process, in whichever thread the turn
-// is. The only remedy is to end the process, and to report which program is the cause.
+// Finds a program that does not end its turn. Such a program blocks all others of the process, no matter which thread
+// runs its turn. The only remedy is to end the process, and to report which program is the cause.
 #pragma once
 
 #include <condition_variable>

@@ -5,7 +5,7 @@
 namespace skein::sim {
 namespace {
 
-TEST(CpuRate, IsMeasuredOverAtLeastASecond) {
+TEST(CpuRate, TheRateIsMeasuredOverAtLeastASecond) {
   CpuRate rate;
   rate.add(400, 10.0);
   EXPECT_FALSE(rate.per_s());
@@ -17,7 +17,7 @@ TEST(CpuRate, IsMeasuredOverAtLeastASecond) {
   EXPECT_DOUBLE_EQ(*rate.per_s(), 0.25);
 }
 
-TEST(CpuRate, BeginsAnewWhenTheProgramRestarts) {
+TEST(CpuRate, TheMeasurementBeginsAnewWhenTheProgramRestarts) {
   CpuRate rate;
   rate.add(0, 5.0);
   rate.add(400, 6.0);

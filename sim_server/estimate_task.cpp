@@ -11,7 +11,7 @@
 namespace skein::sim {
 namespace {
 
-/// Limit of the computing time on an idle machine [s]. If the run ends earlier, it waits for the rest.
+/// Limit of the oracle's computing time on an idle machine [s]. A run that ends earlier waits for the oracle.
 constexpr double kPatience_s = 5.0;
 constexpr int kLeastUrgent = 19;
 

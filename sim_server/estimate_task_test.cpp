@@ -24,7 +24,7 @@ class Estimate : public ::testing::Test {
   OracleRequest request_;
 };
 
-TEST_F(Estimate, IsTheOraclesAndCanBeTakenOnce) {
+TEST_F(Estimate, TheTaskReturnsTheAnswerOfTheOracleOnce) {
   EstimateTask task(scenario_, scene_, request_);
   std::optional<OracleSummary> taken;
   while (!taken) {
@@ -35,11 +35,11 @@ TEST_F(Estimate, IsTheOraclesAndCanBeTakenOnce) {
   EXPECT_FALSE(task.take());
 }
 
-TEST_F(Estimate, MayBeDestroyedWhileItIsComputed) {
+TEST_F(Estimate, TheTaskMayBeDestroyedWhileTheOracleComputes) {
   for (int i = 0; i < 5; ++i) EstimateTask(scenario_, scene_, request_);
 }
 
-TEST_F(Estimate, IsMissingIfItTakesTooLong) {
+TEST_F(Estimate, TheTaskHasNoAnswerIfTheOracleTakesTooLong) {
   request_.patience_s = 0.0;
   std::optional<EstimateTask> task(std::in_place, scenario_, scene_, request_);
   while (!task->over()) std::this_thread::yield();

@@ -1,5 +1,5 @@
-// Commands arrive once per exchange. Whatever the exchange's period, a UAV obeys a command until the next one is due,
-// and no longer.
+// Commands arrive once per exchange. With every exchange period, a UAV obeys a command until shortly after the next one
+// is due.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ class Paced {
     }
     simulation_ = std::make_unique<Simulation>(scenario_, Scene{}, 0);
   }
-  /// @param pilot  returns the command of (uav, t), called once per exchange.   @param watch  called at its end.
+  /// @param pilot  returns the command of (uav, t), called in each exchange. @param watch  called after each exchange.
   template <class Pilot, class Watch>
   void fly(double duration_s, const Pilot& pilot, const Watch& watch) {
     const Tick end = simulation_->tick() + ticks(duration_s);

@@ -28,7 +28,7 @@ class HandDeskTest : public testing::Test {
   HandDesk::Clock::time_point now_{std::chrono::hours(1)};
 };
 
-TEST_F(HandDeskTest, ReportsEachChangeOnce) {
+TEST_F(HandDeskTest, TheDeskReportsEachChangeOnce) {
   EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt) << "nobody has sent a command yet";
   desk_.take(ahead("ann", 1.0), now_);
   desk_.take(ahead("ann", 2.0), now_);
@@ -56,7 +56,7 @@ TEST_F(HandDeskTest, ACommandThatIsNotRenewedEnds) {
   EXPECT_EQ(desk_.news(kFirst, now_), ahead("", 2.0).command) << "it is back";
 }
 
-/// Held for a long time, as between two steps of a run that is paused.
+/// Much time passes between two steps when the run is paused.
 TEST_F(HandDeskTest, ACommandThatEndedBeforeTheNextStepNeverActs) {
   desk_.take(ahead("ann", 2.0), now_);
   now_ += std::chrono::minutes(1);

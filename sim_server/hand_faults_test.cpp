@@ -72,7 +72,7 @@ view::FaultOrder drawn(std::mt19937_64& random) {
   return order;
 }
 
-TEST_F(FaultsByHand, TheirFileHasTheSameFaultsInTheSameExchanges) {
+TEST_F(FaultsByHand, TheWrittenFileHasTheSameFaultsInTheSameExchanges) {
   std::size_t done = 0, refused = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     std::mt19937_64 random(seed);
@@ -82,7 +82,7 @@ TEST_F(FaultsByHand, TheirFileHasTheSameFaultsInTheSameExchanges) {
         "{at_s: 7, link: {loss: 0.3, burst_loss: {mean_good_s: 5, mean_burst_s: 1}}}]",
         seed);
     HandFaults hand(scenario_, own);
-    std::map<Tick, std::vector<std::string>> flown;  // what was in force in each exchange, as it was flown
+    std::map<Tick, std::vector<std::string>> flown;  // the faults in force in each exchange of the flight
     for (Tick next = period_; next < ticks(70.0); next += period_) {
       for (unsigned orders = random() % 40 == 0 ? 1 + random() % 4 : 0; orders > 0; --orders) {
         const bool ends = random() % 2 == 0;
@@ -162,7 +162,7 @@ TEST_F(FaultsByHand, AFaultForAWhileMayEndSooner) {
   EXPECT_EQ(*hand.all()[0].fault.end(), ticks(11.0));
 }
 
-TEST_F(FaultsByHand, TimesMayGoOnToTheEndOfTheRun) {
+TEST_F(FaultsByHand, AFaultMayBeginAndEndUpToTheEndOfTheRun) {
   HandFaults hand(scenario_, {});
   EXPECT_EQ(hand.obey(begin(CameraFailure{"changi"}), ticks(75.0)), "") << "take-off may have been at 19 s";
   EXPECT_EQ(hand.obey(end(0), ticks(78.0)), "");
@@ -171,7 +171,7 @@ TEST_F(FaultsByHand, TimesMayGoOnToTheEndOfTheRun) {
   EXPECT_EQ(read.faults.at(0).end(), ticks(78.0));
 }
 
-TEST_F(FaultsByHand, TheirNumberIsLimitedToWhatAStepCanTellTheRouter) {
+TEST_F(FaultsByHand, TheNumberOfFaultsByHandIsLimited) {
   HandFaults hand(scenario_, {});
   Tick next = period_;
   std::size_t taken = 0;

@@ -41,7 +41,7 @@ void HandNode::begin_step() {
     flown->due = true;
     ++flown->commands;
     flown->rows << hand_file::line_of({simulation_.step(), simulation_.tick(), *news});
-    flown->rows.flush();  // only a few lines per second; so a killed server has saved them all
+    flown->rows.flush();  // so that no line is lost if the server is killed; there are only a few lines per second
   }
 }
 

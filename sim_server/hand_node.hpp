@@ -29,9 +29,9 @@ class HandNode {
   void begin_step();
   /// Publishes this UAV's command in its domain if it has changed with the present step, or if its agent is new.
   void publish(UavIndex uav);
-  /// A new agent has joined and does not know the command: it is published again with the next step.
+  /// Call it when the UAV's agent has joined anew and does not know the command: the next step publishes it again.
   void resend(UavIndex uav);
-  /// Takes a debug value that a UAV's planner has published. Only kHeldSignal matters: what holds the UAV back.
+  /// Takes a debug value that a UAV's planner has published. Only kHeldSignal matters: it tells what holds the UAV back.
   void hear(UavIndex uav, const std::string& name, double value);
   /// Names of the UAVs that viewers fly.
   std::vector<std::string> names() const;

@@ -28,7 +28,7 @@ class LinkTracer {
   /// Both must outlive this. @param seed  draws the shadowing, if the scenario's conditions have any.
   LinkTracer(const Scenario& scenario, const FaultPlan& faults, std::uint64_t seed = 0);
 
-  /// @param radio  for the traces that follow; only where the scenario has path loss.
+  /// Changes the radio conditions for the traces that follow. Has no effect if the scenario has no path loss.
   void change(const RadioConditions& radio) {
     if (path_loss_) path_loss_->change(radio);
   }
@@ -62,8 +62,8 @@ class LinkTracer {
   const FaultPlan& faults_;
   const std::optional<double> range_m_;  ///< of every link between UAVs; nullopt: not limited
   std::optional<PathLoss> path_loss_;
-  std::vector<NodeField> fields_;    ///< by node; of no nodes without path loss
-  LinkMatrix<double> received_dbm_;  ///< of links in range with line of sight; of no nodes without path loss
+  std::vector<NodeField> fields_;    ///< by node; empty without path loss
+  LinkMatrix<double> received_dbm_;  ///< of links in range with line of sight; empty without path loss
   /// Of pairs that were in range: by the lower node, then by the higher one.
   std::vector<std::unordered_map<std::size_t, SightMemory>> sights_;
   Links unfailed_;

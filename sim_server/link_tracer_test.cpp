@@ -15,7 +15,7 @@ namespace {
 
 /// The tracer keeps the shadowing values of nodes that stand still. For any other node, it computes them once for all
 /// links of the node.
-TEST(LinkTracer, GivesEachLinkThePowerThatPathLossGives) {
+TEST(LinkTracer, EachLinkHasThePowerThatThePathLossModelGives) {
   constexpr std::uint64_t kSeed = 3;
   Scenario scenario;
   scenario.conditions.radio = conditions_preset("harsh").radio;
@@ -54,8 +54,8 @@ TEST(LinkTracer, GivesEachLinkThePowerThatPathLossGives) {
   EXPECT_GT(silent, 500U);
 }
 
-/// With a common range, the tracer looks only at pairs of UAVs in adjacent squares; each pair must get the same link.
-TEST(LinkTracer, TracesNearPairsOnlyAndGivesEachPairTheSameLink) {
+/// With a common range, the tracer looks only at pairs of UAVs in adjacent squares.
+TEST(LinkTracer, TracingNearPairsOnlyGivesTheSameLinksAsTracingAllPairs) {
   RandomStream draw(4, "link_tracer_test", 1);
   const FaultPlan no_faults;
   for (int i = 0; i < 40; ++i) {

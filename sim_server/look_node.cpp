@@ -128,7 +128,7 @@ std::string LookNode::shown(UavIndex uav, std::span<const std::uint8_t> payload)
              : view::no_map_text(name, time_s, "its program shows one that is damaged");
 }
 
-/// @returns the size of what was sent [bytes].
+/// @returns the size of the text [bytes].
 std::size_t LookNode::write(const std::string& text) {
   msg::String message;
   message.data(text);

@@ -1,4 +1,4 @@
-// Sends the station what viewers of a watched run ask for beyond what all viewers get: LiDAR points of some UAVs, and
+// Sends the station the additional data that single viewers of a watched run ask for: LiDAR points of some UAVs, and
 // maps. The points come from the simulation. The maps come from the UAVs' own domains, which the server has joined and
 // the station has not. The server sends the newest points and maps, at a bounded rate (view::look_budget()).
 //
@@ -35,7 +35,7 @@ class LookNode {
 
   /// For the page: the UAVs that have a "lidar", and those whose "maps" it may ask for.
   Json offer() const;
-  /// Grants what a page asks for, for view::kLookLease from now on. Unknown UAVs are ignored.
+  /// Grants a page's requests for view::kLookLease from now on. Unknown UAVs are ignored.
   void obey(const view::LookOrder& order, Clock::time_point now);
   /// Whether the next scan of this UAV is to be shown.
   bool wants_scan(UavIndex uav, Clock::time_point now) const;

@@ -12,7 +12,7 @@
 
 namespace skein::sim {
 
-/// Why a mission ended.
+/// The reason why a mission ended.
 enum class MissionEnd { none, duration, no_uav_flies, takeoff_timeout };
 
 /// The death of one UAV by collision. If two UAVs die in one collision, there are two of these.

@@ -23,7 +23,7 @@ class MissionTest : public testing::Test {
   Scenario scenario_;
 };
 
-TEST_F(MissionTest, ClockStartsAtTheFirstTakeOff) {
+TEST_F(MissionTest, TheClockStartsAtTheFirstTakeoff) {
   Mission m = mission(2);
   m.update(1, {resting(), resting()}, {});
   m.update(2, {resting(), at(kRest + 0.2, 0.05)}, {});  // high, but slow
@@ -38,7 +38,7 @@ TEST_F(MissionTest, ClockStartsAtTheFirstTakeOff) {
   EXPECT_DOUBLE_EQ(m.remaining_s(4 + 400), 9.0);
 }
 
-TEST_F(MissionTest, EndsAfterItsDurationAndStaysEnded) {
+TEST_F(MissionTest, AMissionEndsAfterItsDurationAndStaysEnded) {
   Mission m = mission(1);
   m.update(100, {flying()}, {});
   m.update(100 + 3999, {flying()}, {});
@@ -52,7 +52,7 @@ TEST_F(MissionTest, EndsAfterItsDurationAndStaysEnded) {
   EXPECT_TRUE(m.alive(UavIndex{0}));
 }
 
-TEST_F(MissionTest, EndsWhenNoUavTakesOff) {
+TEST_F(MissionTest, AMissionEndsWhenNoUavTakesOffInTime) {
   Mission m = mission(1);
   m.update(1999, {resting()}, {});
   EXPECT_EQ(m.phase(), Phase::waiting);
@@ -61,7 +61,7 @@ TEST_F(MissionTest, EndsWhenNoUavTakesOff) {
   EXPECT_FALSE(m.start_tick().has_value());
 }
 
-TEST_F(MissionTest, EndsWhenEveryoneIsDeadOrHasLanded) {
+TEST_F(MissionTest, AMissionEndsWhenEachUavIsDeadOrHasLanded) {
   Mission m = mission(3);
   m.update(1, {flying(), flying(), resting()}, {});
   m.update(2, {flying(), resting(), resting()}, {});  // 1 landed; 2 never flew
@@ -73,7 +73,7 @@ TEST_F(MissionTest, EndsWhenEveryoneIsDeadOrHasLanded) {
   EXPECT_EQ(m.end(), MissionEnd::no_uav_flies);
 }
 
-TEST_F(MissionTest, GoesOnWhereALandedUavGetsAnotherBattery) {
+TEST_F(MissionTest, AMissionGoesOnWhereALandedUavGetsAnotherBattery) {
   scenario_.conditions.battery.endurance_missions = 0.3;
   scenario_.conditions.battery.swap_s = 30.0;
   Mission m = mission(2);
@@ -89,7 +89,7 @@ TEST_F(MissionTest, GoesOnWhereALandedUavGetsAnotherBattery) {
   EXPECT_EQ(m.end(), MissionEnd::no_uav_flies);
 }
 
-TEST_F(MissionTest, AFallenUavHasLandedWhereverItsRotorsHoldIt) {
+TEST_F(MissionTest, AFallenUavHasLandedEvenIfItRestsOnARotorAboveItsRestHeight) {
   Mission m = mission(1);
   m.update(1, {flying()}, {});
   m.update(2, {at(kRest + 0.3, 0.01)}, {});  // slow and high: hovers
@@ -98,7 +98,7 @@ TEST_F(MissionTest, AFallenUavHasLandedWhereverItsRotorsHoldIt) {
   EXPECT_FALSE(m.airborne(UavIndex{0}));
 }
 
-TEST_F(MissionTest, AirborneContactKillsWithPlaceAndTime) {
+TEST_F(MissionTest, AContactKillsAnAirborneUavAndItsPlaceAndTimeAreReported) {
   Mission m = mission(2);
   m.update(1, {flying(), flying()}, {});
   const auto collisions = m.update(7, {flying(), flying()}, {{UavIndex{1}, kStructure, {3, 4, 5}}});
@@ -111,7 +111,7 @@ TEST_F(MissionTest, AirborneContactKillsWithPlaceAndTime) {
   EXPECT_TRUE(m.update(8, {flying(), flying()}, {{UavIndex{1}, kStructure, {3, 4, 5}}}).empty()) << "dies only once";
 }
 
-TEST_F(MissionTest, GroundAndRestingUavsDoNotKill) {
+TEST_F(MissionTest, AUavSurvivesTheGroundAndARestingUavAlsoTheStructure) {
   Mission m = mission(2);
   m.update(1, {flying(), resting()},
            {{UavIndex{0}, kGround, Vector3d::Zero()},
@@ -149,7 +149,7 @@ TEST_F(MissionTest, BothOfAPairDieEvenIfOneOfThemRestsWhereTheRulesSaySo) {
   EXPECT_TRUE(m.alive(UavIndex{2}));
 }
 
-TEST_F(MissionTest, OrderOfContactsInATickDoesNotMatter) {
+TEST_F(MissionTest, TheOrderOfContactsInATickDoesNotMatter) {
   // 0 hits the structure and 1 in the same tick: both die, whichever contact comes first.
   scenario_.rules.collision_kills_both = true;
   const Contact wall{UavIndex{0}, kStructure, Vector3d::Zero()},

@@ -13,7 +13,7 @@ constexpr double kExchange_s = 0.05;
 
 class PaceTest : public testing::Test {
  protected:
-  /// How many exchanges begin until so much later, looked at every millisecond.
+  /// Asks every millisecond for this time whether an exchange may begin. @returns how many exchanges began.
   int exchanges(int ms) {
     int count = 0;
     for (int i = 0; i < ms; ++i, now_ += milliseconds(1)) count += pace_.may_go_on(now_, kExchange_s) ? 1 : 0;
@@ -24,18 +24,18 @@ class PaceTest : public testing::Test {
   Pace::Clock::time_point now_{std::chrono::hours(1)};
 };
 
-TEST_F(PaceTest, KeepsTheSpeed) {
+TEST_F(PaceTest, TheRunKeepsTheSpeed) {
   EXPECT_EQ(exchanges(1000), 40) << "2 s in a second, of 0.05 s each";
   EXPECT_NEAR(pace_.held_s(), 1.0, 0.07) << "exchanges take no time here, and the test notices each hold 1 ms late";
 }
 
-TEST_F(PaceTest, WithoutASpeedLimitItHoldsNothing) {
+TEST_F(PaceTest, WithoutASpeedLimitTheRunIsNeverHeld) {
   pace_.obey({Kind::speed, std::nullopt});
   EXPECT_EQ(exchanges(100), 100);
   EXPECT_EQ(pace_.held_s(), 0.0);
 }
 
-TEST_F(PaceTest, PauseHoldsUntilItGoesOn) {
+TEST_F(PaceTest, APausedRunStandsStillUntilItIsResumed) {
   EXPECT_EQ(exchanges(100), 4);
   pace_.obey({Kind::pause});
   EXPECT_TRUE(pace_.paused());
@@ -47,7 +47,7 @@ TEST_F(PaceTest, PauseHoldsUntilItGoesOn) {
   EXPECT_EQ(exchanges(1000), 40) << "the time of the pause is not made up for";
 }
 
-TEST(Pace, PausesByItselfOnce) {
+TEST(Pace, TheRunPausesOnceAtItsPauseTime) {
   Pace pace(std::nullopt, 12.0);
   EXPECT_FALSE(pace.reach(0.0) || pace.reach(11.95) || pace.paused());
   EXPECT_TRUE(pace.reach(12.0));
@@ -73,14 +73,14 @@ TEST_F(PaceTest, AStepIsOneExchange) {
   EXPECT_TRUE(pace_.paused());
 }
 
-TEST_F(PaceTest, CatchesUpOnlyALittleOfALongDelay) {
+TEST_F(PaceTest, TheRunCatchesUpOnlyALittleOfALongDelay) {
   EXPECT_EQ(exchanges(100), 4);
   now_ += std::chrono::seconds(10);  // one exchange took 10 s
   EXPECT_LE(exchanges(1000), 40 + 11);
   EXPECT_EQ(exchanges(1000), 40);
 }
 
-TEST_F(PaceTest, AnotherSpeedCountsAtOnce) {
+TEST_F(PaceTest, AnotherSpeedTakesEffectAtOnce) {
   pace_.obey({Kind::speed, 0.1});
   EXPECT_EQ(exchanges(1), 1);
   EXPECT_EQ(exchanges(400), 0) << "the next is due after half a second";

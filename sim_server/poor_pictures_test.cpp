@@ -1,5 +1,5 @@
-// For each point for which no picture counts, the best picture: compared with all pictures of drawn flights, judged by
-// the formulas and with a ray for each point.
+// Tests the best picture of each point for which no picture counts: compares it with all pictures of random flights,
+// which the test judges by the formulas and with a ray for each point.
 #include "sight/poor_pictures.hpp"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ class DrawnExposures {
   RulesConfig rules_;
 };
 
-TEST(PoorPictures, AreTheBestOfAllThatDoNotCount) {
+TEST(PoorPictures, TheKeptPictureIsTheBestOfAllThatDoNotCount) {
   std::size_t known = 0, closed = 0;
   for (std::uint64_t key = 1; key <= 4; ++key) {
     DrawnExposures drawn(key);
@@ -105,7 +105,7 @@ TEST(PoorPictures, AreTheBestOfAllThatDoNotCount) {
   EXPECT_GT(closed, 300U);
 }
 
-TEST(PoorPictures, ChangeNothingElseThatACameraSees) {
+TEST(PoorPictures, KeepingThemDoesNotChangeTheDetectionsOfACamera) {
   DrawnExposures drawn(9);
   Referee referee(9, 1, drawn.points().size(), drawn.rules());
   Camera alone = drawn.camera(), noting = drawn.camera();

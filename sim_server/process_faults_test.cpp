@@ -43,7 +43,7 @@ TEST(ProcessFaults, TheFaultsOfThePlanActAtEachExchange) {
 }
 
 // Faults that a viewer adds by hand begin during the run, and their ends become known later.
-TEST(ProcessFaults, MayBeAddedAndEnded) {
+TEST(ProcessFaults, FaultsMayBeAddedAndEndedDuringTheRun) {
   FaultPlan plan;
   plan.faults.push_back({.at_s = 1.0, .until_s = 2.0, .action = Kill{"a"}});
   ProcessFaults faults(plan);

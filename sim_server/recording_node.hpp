@@ -1,5 +1,5 @@
 // The server's part of a run's recording: the samples that it writes, the commands that it takes, events, faults, and
-// the frames and markers that viewers draw. If a recorded run is flown again, it also replays what the members said.
+// the frames and markers that viewers draw. If a recorded run is flown again, it also replays the members' messages.
 // Frame of the views: W.   Threads: one.
 #pragma once
 
@@ -24,14 +24,15 @@ class RecordingNode {
   bus::Tap* tap() { return replay_ ? static_cast<bus::Tap*>(&*replay_) : &recorder_; }
   /// Call it before the samples of a step are written. @param faults  the lines of FaultTimeline::enter_step().
   void begin_step(const Simulation& simulation, const std::vector<std::string>& faults);
-  /// Call it when the members have answered a step. While a recorded run is flown again, the server now takes what they
-  /// said in the recording.
+  /// Call it when the members have answered a step. While a recorded run is flown again, the server now takes their
+  /// messages of this step from the recording.
   void end_step();
   /// Whether a recorded run is flown again and its recording has nothing left at this tick.
   bool is_replayed(Tick tick) const;
-  /// Where members say something else than in the recorded run, a sentence each; nullopt: no run is flown again.
+  /// A sentence for each place where members send other messages than in the recorded run; nullopt: no run is flown
+  /// again.
   std::optional<std::vector<std::string>> differences() const;
-  /// @returns what went wrong, for people; empty: nothing.
+  /// @returns the error, for people; empty: none.
   std::string close();
 
  private:

@@ -27,7 +27,8 @@ class Referee {
   /// @throws std::logic_error when `tick` is earlier than the last entry's.
   bool enter_collision(UavIndex uav, Tick tick);
 
-  /// Notes what a capture shows too poorly to count, and which points it counts for. Only reports depend on it.
+  /// Notes the points that a capture shows too poorly to count, and those for which it counts. Only reports depend on
+  /// this.
   void note_poor(const Capture& capture);
   const PoorPictures& poor_pictures() const { return poor_; }
 

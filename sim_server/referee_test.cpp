@@ -15,7 +15,7 @@ Detection detection(std::uint32_t point, double q, bool improved) {
 
 Capture capture(Tick tick, std::vector<Detection> detections) { return {tick, std::move(detections)}; }
 
-TEST(Referee, EntersOnlyCapturesThatImprovedAPoint) {
+TEST(Referee, TheLedgerHasOnlyCapturesThatImprovedAPoint) {
   Referee referee(0, 2, 10, RulesConfig{});
   EXPECT_FALSE(referee.enter(UavIndex{0}, capture(41, {})));
   EXPECT_FALSE(referee.enter(UavIndex{0}, capture(82, {detection(3, 0.5, false)})));
@@ -29,7 +29,7 @@ TEST(Referee, EntersOnlyCapturesThatImprovedAPoint) {
   EXPECT_EQ(referee.earned().score(), 0.75);
 }
 
-TEST(Referee, NumbersItsEntriesWithoutGaps) {
+TEST(Referee, TheRefereeNumbersItsEntriesWithoutGaps) {
   Referee referee(3, 3, 1000, RulesConfig{});
   std::set<std::uint64_t> tokens;
   std::vector<std::uint64_t> of_uav(3, 0);
@@ -83,7 +83,7 @@ TEST(Referee, ACollisionEndsAUavsCapturesAndVoidsItsPoints) {
   EXPECT_EQ(referee.earned().score_by_uav(), (std::vector<double>{0.0, 1.5}));
 }
 
-TEST(Referee, KeepsTheOrderOfTime) {
+TEST(Referee, AnEntryThatIsEarlierThanTheLastIsRefused) {
   Referee referee(0, 2, 2, RulesConfig{});
   referee.enter(UavIndex{0}, capture(41, {detection(0, 0.9, true)}));
   referee.enter(UavIndex{1}, capture(41, {detection(0, 0.9, true)}));

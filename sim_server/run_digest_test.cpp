@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<std::string> kNames = {"a", "b"};
 
-/// One exchange; keeps what the input points at.
+/// One exchange; owns the data that the input refers to.
 struct Exchange {
   DigestInput input;
   std::vector<LedgerEntry> ledger;
@@ -35,7 +35,7 @@ struct Exchange {
   }
 };
 
-TEST(RunDigest, NamesItsColumns) {
+TEST(RunDigest, TheDigestNamesItsColumns) {
   const RunDigest digest(kNames);
   ASSERT_EQ(digest.columns().size(), 15U);
   EXPECT_EQ(digest.columns()[0], "a.position");
@@ -69,7 +69,7 @@ TEST(RunDigest, EveryFieldCountsAndIsReported) {
   }
 }
 
-TEST(RunDigest, TokensAndGimbalRatesDoNotEnter) {
+TEST(RunDigest, TokensAndGimbalRatesDoNotEnterTheDigest) {
   const StepDigest base = Exchange().hashed();
   Exchange changed;
   changed.ledger[0].capture.token = 99;
@@ -90,7 +90,7 @@ TEST(RunDigest, TheRunningDigestDependsOnAllSteps) {
   EXPECT_NE(second.running, first.running);
 }
 
-TEST(RunDigest, FleetsOfAnotherSizeAreAMistake) {
+TEST(RunDigest, AFleetOfAnotherSizeIsRefused) {
   RunDigest digest(kNames);
   EXPECT_THROW(digest.add({}), std::logic_error);
 }

@@ -1,5 +1,5 @@
-// What sim_server does without a fleet: it checks reference vectors, writes scenes to files, and asks the oracle for
-// the attainable score.   Units: m, s.   Threads: one.
+// The tasks of sim_server that need no fleet: it checks reference vectors, writes scenes to files, and asks the oracle
+// for the attainable score.   Units: m, s.   Threads: one.
 #pragma once
 
 #include <filesystem>

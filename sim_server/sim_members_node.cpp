@@ -16,7 +16,7 @@ void SimNode::take_losses() {
   }
 }
 
-/// Call it after take_losses(). @param step  the first one in which those that have joined again take part.
+/// Call it after take_losses(). @param step  the first step in which the members that have joined again take part.
 void SimNode::take_returns(std::uint64_t step) {
   for (const std::string& name : server_.take_rejoined()) {
     spdlog::info("{} joined again at step {}", name, step);

@@ -56,7 +56,7 @@ class LiveSignalsTest : public testing::Test {
   std::unique_ptr<signals::LiveSignals> signals_;
 };
 
-TEST_F(LiveSignalsTest, AgreeWithTheSimulatedWorld) {
+TEST_F(LiveSignalsTest, SignalsAgreeWithTheSimulatedWorld) {
   faults_.faults.push_back({.at_s = 5.0, .until_s = 7.0, .action = Blackout{"a"}});
   double captured = 0.0;
   std::size_t with_fault = 0;
@@ -97,7 +97,7 @@ TEST_F(LiveSignalsTest, ChargeIsThatOfTheUavsBattery) {
   EXPECT_LT(value("charge(a)"), 0.95);
 }
 
-TEST_F(LiveSignalsTest, AProgramThatComesBackHasRestarted) {
+TEST_F(LiveSignalsTest, AProgramThatComesBackCountsAsRestarted) {
   int step = 0;
   away_ = {"b", "gcs"};
   fly(3.0, [&] {

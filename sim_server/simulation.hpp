@@ -3,8 +3,8 @@
 // bit, however many threads share the work.
 // Threads: one, which may share its work. Frames: W world (ENU), B body (FLU).  Units: SI, radians; times are ticks.
 //
-// The server hands in commands at a step boundary, between two calls of advance(), and reads in events() what happened
-// in the exchange. LiDARs run from the beginning, cameras while the mission's clock runs. At the mission's end all
+// The server hands in commands at a step boundary, between two calls of advance(), and reads the events of the exchange
+// in events(). LiDARs run from the beginning, cameras while the mission's clock runs. At the mission's end all
 // sensors and motors stop. fleet_start.hpp, lidar.hpp and referee.hpp say what the seed draws. With seed 0, starts,
 // command latency and LiDARs are without random effects; the tokens and the scenario's conditions are drawn even so.
 #pragma once
@@ -76,7 +76,7 @@ struct Stray {
   Vector3d p_W = Vector3d::Zero();  ///< its last position
 };
 
-/// What happened in the exchange that led to this step.
+/// The events of the exchange that led to this step.
 struct StepEvents {
   std::vector<LidarEvent> scans;
   std::vector<ServoEvent> servos;

@@ -38,7 +38,7 @@ class Field : public testing::Test {
     simulation_ = std::make_unique<Simulation>(scenario_, scene_, seed);
     return *simulation_;
   }
-  /// All fly to their target for a time, exchange by exchange; `watch` sees every one.
+  /// All UAVs fly to their targets for this time; `watch` gets the events of each exchange.
   void fly(
       double duration_s, const std::vector<TrajectoryCommand>& commands,
       const std::function<void(const StepEvents&)>& watch = [](const StepEvents&) {}) {
@@ -56,7 +56,7 @@ class Field : public testing::Test {
 
 TrajectoryCommand to(double x, double y, double z) { return {.p_WB = {x, y, z}}; }
 
-TEST_F(Field, WaitsForTheTakeOffAndThenRunsTheClock) {
+TEST_F(Field, TheMissionWaitsForTheTakeoffAndThenRunsTheClock) {
   add("photographer", 0, 0);
   Simulation& sim = start();
   EXPECT_EQ(sim.step(), 0U);
@@ -192,8 +192,8 @@ TEST_F(Field, HandTriggeredCamerasWaitForTheTrigger) {
   for (std::size_t i = 1; i < pictures.size(); ++i) EXPECT_GE(pictures[i] - pictures[i - 1], 41);
 }
 
-/// What a UAV receives about its pictures follows from its own pictures alone. So it learns neither the fleet's score
-/// nor what others have photographed.
+/// The data that a UAV receives about its pictures follow from its own pictures alone. So it learns neither the fleet's
+/// score nor which points others have photographed.
 TEST_F(Field, AUavLearnsNothingOfThePicturesOfOthers) {
   add("explorer", 0, -3);
   add("photographer", 0, 3);
@@ -290,7 +290,7 @@ TEST_F(Field, StoppedUavFallsAndIsNotDead) {
   EXPECT_EQ(sim.mission().phase(), Phase::ended);
 }
 
-TEST_F(Field, CountsDistanceSpeedAndIdleness) {
+TEST_F(Field, TheSimulationCountsDistanceSpeedAndIdleness) {
   add("photographer", 0, -30);  // nothing to see there
   Simulation& sim = start();
   fly(4.0, {to(0.5, -30, 5)});
@@ -316,7 +316,7 @@ TEST_F(Field, DelayedMotorsStartWithTheNewestCommand) {
 }
 
 // The reader refuses such a vehicle. Any other state that becomes infinite must end in the same way.
-TEST_F(Field, AVehicleThatNoIntegrationSurvivesIsOutAndTheOthersFlyOn) {
+TEST_F(Field, AUavWhoseStateBecomesInfiniteIsOutAndTheOthersFlyOn) {
   add("photographer", 0, 0);
   add("photographer", 0, 4);
   VehicleConfig& bad = scenario_.fleet[0].vehicle;

@@ -103,7 +103,8 @@ UavNode::UavNode(UavIndex uav, const Scenario& scenario, Simulation& simulation,
   });
 }
 
-/// A program waits until all topics that it writes have readers, and the fleet waits for the program.
+/// Warns of the topic because its program waits until all topics that it writes have readers, and the fleet waits for
+/// the program.
 void UavNode::warn_of_unread_debug(const std::string& topic) const {
   spdlog::warn(
       "{} announces the topic '{}', which sim_server does not read: the name of a debug value begins with a letter, "

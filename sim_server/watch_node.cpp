@@ -13,12 +13,12 @@
 namespace skein::sim {
 namespace {
 
-/// Between two state messages: the page shows no more pictures per second.
+/// Least time between two state messages: the page does not draw more often.
 constexpr std::chrono::milliseconds kStatePeriod{80};
 /// Maximum number of orders about faults that are kept until the next boundary; no person is faster.
 constexpr std::size_t kMostFaultOrders = 64;
 const Tick kPosePeriod = ticks(view::kTrailPeriod_s);
-/// Between two messages about the radio links, because those of a large fleet change in nearly every step.
+/// Least time between two messages about the radio links: those of a large fleet change in nearly every step.
 const Tick kLinksPeriod = ticks(0.25);
 
 /// The scene as of the start of a run, when no point has been seen.

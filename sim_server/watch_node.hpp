@@ -1,4 +1,4 @@
-// The server's side of a watched run (--watch): it sends the station what the viewers' page needs, and holds the run
+// The server's side of a watched run (--watch): it sends the station the data for the viewers' page, and holds the run
 // when the page asks for it. No agent receives its messages, and the lock-step does not count them.
 // Frame: W.   Units: SI, radians.   Threads: one; the readers store what arrives from threads of the bus.
 #pragma once
@@ -87,7 +87,7 @@ class WatchNode {
   FaultNode& faults_;
   std::vector<view::FaultOrder> fault_orders_;  ///< since the last boundary
   std::uint64_t done_ = 0, refused_ = 0;        ///< numbers of orders about faults so far
-  std::string refusal_;                         ///< why the last refused one was refused
+  std::string refusal_;                         ///< the reason for the last refusal
   bool station_there_ = true;
   std::vector<view::ShownLink> told_links_;
   struct Saying {

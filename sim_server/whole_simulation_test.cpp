@@ -1,4 +1,4 @@
-// Whole scenarios with a pilot who flies around the highest box: runs repeat exactly, and their cost is limited.
+// Whole scenarios with a pilot who flies around the highest box: runs repeat exactly. Some tests print their CPU time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,7 +84,7 @@ std::string survey(const Scenario& scenario, const Scene& scene, std::uint64_t s
 
 Scenario towers() { return load_scenario("towers", {.config_dir = source_path("config")}); }
 
-TEST(WholeSimulation, RepeatsBitForBitAndSeedsDiffer) {
+TEST(WholeSimulation, ARunRepeatsBitForBitAndSeedsDiffer) {
   const Scenario scenario = towers();
   const Scene scene = load_scene(scenario);
   for (const std::uint64_t seed : {0U, 7U}) {
@@ -135,7 +135,7 @@ TEST(WholeSimulation, ScansWithoutAReaderChangeNothingElse) {
   EXPECT_LT(10 * lazy_scans, 5 * scans);
 }
 
-TEST(WholeSimulation, AHundredUavs) {
+TEST(WholeSimulation, AHundredUavsTakeOffWithoutACollision) {
   Scenario scenario = towers();
   const UavConfig explorer = scenario.fleet[0], photographer = scenario.fleet[2];
   const Scene scene = load_scene(scenario);
@@ -163,6 +163,7 @@ TEST(WholeSimulation, AHundredUavs) {
   }
 }
 
+/// Prints the CPU time of a flight.
 void measure(const Scenario& scenario, double duration_s) {
   const Scene scene = load_scene(scenario);
   const std::clock_t begin = std::clock();
@@ -180,9 +181,9 @@ void measure(const Scenario& scenario, double duration_s) {
   EXPECT_GT(sim.referee().earned().points_detected(), 0U);
 }
 
-TEST(WholeSimulation, SpeedOnTowers) { measure(towers(), 120.0); }
+TEST(WholeSimulation, AFlightOnTowersDetectsPoints) { measure(towers(), 120.0); }
 
-TEST(WholeSimulation, SpeedOnMbs) {
+TEST(WholeSimulation, AFlightOnMbsDetectsPoints) {
   const char* assets = std::getenv("SKEIN_ASSETS");
   if (assets == nullptr) GTEST_SKIP() << "SKEIN_ASSETS is not set";
   measure(load_scenario("mbs", {.assets_dir = assets, .config_dir = source_path("config")}), 120.0);

@@ -1,5 +1,5 @@
 // Properties of every wild world: sound meshes, the same bytes from the same number, points in boxes, a fleet that can
-// start, and ways from there to views of points and home again. Also that worlds differ as they should.
+// start, and ways from there to views of points and home again. Other tests check that worlds differ as they should.
 #include "scenes/wild/world.hpp"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST_P(EveryWorld, InABlindWorldNothingStandsButItsStructures) {
   }
 }
 
-TEST_P(EveryWorld, FleetStartsAndTheExportFliesTheSame) {
+TEST_P(EveryWorld, TheFleetCanStartInTheWorldAndInItsExport) {
   EXPECT_TRUE(wild::is_flyable(scenario_, scene_));
   const auto folder = std::filesystem::path(testing::TempDir()) / ("world_" + scenario_.name);
   write_export(scene_export(scenario_, scene_), folder, true);
@@ -142,8 +142,8 @@ TEST(World, SameSeedGivesTheSameBytes) {
 
 TEST(World, UnknownNamesAreRefused) { EXPECT_THROW(draw_world("wilt", 1, kConfig), InputError); }
 
-/// Looks only at the drawn sites, before the check that they can be flown: fast enough for many seeds.
-TEST(Tasks, AreOfAllKinds) {
+/// Looks only at the drawn tasks, without the check that the world can be flown, which is too slow for many seeds.
+TEST(Tasks, DrawnTasksAreOfAllKinds) {
   std::set<std::size_t> sizes;
   std::size_t explorers_alone = 0, photographer_first = 0;
   constexpr std::uint64_t kMany = 300;
@@ -161,7 +161,7 @@ TEST(Tasks, AreOfAllKinds) {
 }
 
 /// Also in blind worlds, as docs/wild.md says: boxes contain all points, but structure may stand outside of them.
-TEST(Boxes, MayLeavePartsOfAStructureOut) {
+TEST(Boxes, BoxesMayLeavePartsOfAStructureOut) {
   std::size_t worlds_with_parts_outside = 0;
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 50; ++seed) {
     const wild::Dice dice{seed, 0};
@@ -178,7 +178,7 @@ TEST(Boxes, MayLeavePartsOfAStructureOut) {
   EXPECT_GT(worlds_with_parts_outside, 3u);
 }
 
-TEST(Boxes, AreOfAllKinds) {
+TEST(Boxes, DrawnBoxesAreOfAllKinds) {
   std::size_t single = 0, hanging = 0, many = 0;
   constexpr std::uint64_t kMany = 100;
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kMany; ++seed) {

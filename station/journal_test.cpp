@@ -147,7 +147,7 @@ TEST_F(JournalTest, AWriteErrorIsReportedOnceAndEndsTheJournal) {
   ASSERT_GE(child, 0);
   if (child == 0) {
     ::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{116, 116};
+    const rlimit limit{116, 116};  // room for the file's head, the first record and a part of the second
     ::setrlimit(RLIMIT_FSIZE, &limit);
     Journal journal(file_);
     const std::string trouble = journal.append(records), again = journal.append(records);

@@ -18,7 +18,7 @@
 
 namespace skein::station {
 
-/// Why a report does not count.
+/// The reason why a report does not count.
 enum class Refusal {
   unknown,   ///< no camera took such a capture: no entry has its token
   borrowed,  ///< it came from another UAV than the one that took the capture
@@ -44,7 +44,7 @@ struct StepOutcome {
   bool score_changed = false;
 };
 
-/// How one entry of the ledger fared.
+/// Whether an entry of the ledger was delivered, and whether a report of it was refused.
 struct Audit {
   std::optional<Tick> delivered;   ///< when the station took it in
   std::optional<Refusal> refused;  ///< why a report of it was refused last, if ever

@@ -24,7 +24,7 @@ LedgerEntry collision(std::uint64_t index, UavIndex uav, Tick tick) { return {in
 
 Scoreboard board() { return Scoreboard(kUavs, kPoints, RulesConfig{}); }
 
-TEST(Scoreboard, AReportThatStandsInTheLedgerCountsAndIsAcknowledged) {
+TEST(Scoreboard, AReportThatEqualsAStandingEntryCountsAndIsAcknowledged) {
   Scoreboard score = board();
   const CaptureReport report = capture(UavIndex{1}, 0, 100, {point(3, 0.5F), point(7, 0.25F)});
   score.add_entry(entry(0, report));
@@ -52,7 +52,7 @@ TEST(Scoreboard, AnEarnedPointIsNotYetDelivered) {
   EXPECT_FALSE(score.audit(score.ledger()[0]).delivered);
 }
 
-TEST(Scoreboard, EveryChangeOfAReportIsRefused) {
+TEST(Scoreboard, AReportThatDiffersFromItsEntryOrComesFromAnotherUavIsRefused) {
   const CaptureReport genuine = capture(UavIndex{1}, 4, 100, {point(3, 0.5F)});
   const CaptureReport of_another = capture(UavIndex{0}, 0, 90, {point(3, 0.9F)});
   struct Case {
@@ -179,7 +179,7 @@ TEST(Scoreboard, ALedgerThatContradictsItselfOrTheRunIsAnError) {
   EXPECT_THROW(score.end_step(20, 2), std::logic_error);
 }
 
-TEST(Scoreboard, AJournalThatNamesWhatDoesNotExistIsAnError) {
+TEST(Scoreboard, AJournalRecordOfAnUnknownUavOrPointIsAnError) {
   Scoreboard score = board();
   EXPECT_THROW(score.restore({20, entry(0, capture(UavIndex{9}, 0, 10, {}))}), std::invalid_argument);
   EXPECT_THROW(score.restore({20, entry(0, capture(UavIndex{0}, 0, 10, {point(kPoints, 0.5F)}))}),

@@ -64,7 +64,7 @@ class StationNode final : public bus::ClientNode {
   recording::Recorder* const recorder_;
   std::vector<std::string> uavs_;
   Journal journal_;
-  std::vector<std::string> unwritten_;  ///< what the disk refused, one sentence each
+  std::vector<std::string> unwritten_;  ///< files that the disk refused, one sentence each
   const std::shared_ptr<ScoreView> score_view_;
   std::optional<Scoreboard> scoreboard_;  ///< from the first message of the ledger on: it has the number of points
   std::vector<InterestPoint> points_;     ///< from the ledger; empty: not received yet

@@ -22,7 +22,7 @@ std::string timeline_csv(const Scoreboard& scoreboard) {
   return text;
 }
 
-/// Why a point of a capture does not count; empty when it does.
+/// The reason why a point of a capture does not count; empty when it counts.
 std::string reason(const Scoreboard& scoreboard, const LedgerEntry& entry, const CapturePoint& point,
                    const Audit& audit) {
   if (scoreboard.is_void(entry.uav)) return run_tables::kUavCollided;

@@ -1,8 +1,8 @@
-// The station's side of a watched run (--view-fd, --view-listen): it serves the page to browsers. It forwards to them
-// what sim_server sends, and adds what only the station knows: captures and whether they were delivered. It sends the
+// The station's side of a watched run (--view-fd, --view-listen): it serves the page to browsers. It forwards the
+// messages of sim_server to them, and adds the captures and their delivery, which only the station knows. It sends the
 // browsers' orders to sim_server.
 //
-// The bus's own threads forward what comes from sim_server and do not wake the station's thread: the station's part in
+// The bus's own threads forward the messages of sim_server and do not wake the station's thread: the station's part in
 // the lock-step takes the same turns whether or not browsers watch.
 // Threads: one, except for callbacks from threads of the bus and of view::Server.
 #pragma once
@@ -31,7 +31,7 @@ struct ViewOptions {
   std::string title;               ///< of the run, for people: "towers by kios"
 };
 
-/// The page, made ready before the run starts. @throws InputError for what is wrong with the options.
+/// The page, made ready before the run starts. @throws InputError for wrong options.
 struct ReadyView {
   explicit ReadyView(const ViewOptions& options);
 
@@ -47,7 +47,7 @@ class ViewNode {
   /// @param world, inbox  the station's participant in the world domain, and its inbox; they must outlive this.
   ViewNode(const ReadyView& ready, bus::Participant& world, bus::Inbox& inbox);
 
-  /// Call it in each step: tells browsers what is new in ledger and tally. @param standing  entries that stand.
+  /// Call it in each step: tells browsers the news in ledger and tally. @param standing  number of entries that stand.
   void end_step(const Scoreboard& scoreboard, const StepOutcome& outcome, std::uint64_t standing);
   /// Tells browsers of deliveries: those of the journal after a restart, or those of a step.
   void add_records(const std::vector<TallyRecord>& records);

@@ -32,7 +32,7 @@ void Battery::draw(double power_w, double time_s) {
     return;
   }
   const double open_v = open_voltage_v();
-  // The smaller root of the quadratic. Above the battery's maximum power there is no root; then it gives that maximum.
+  // The smaller root of the quadratic. There is no root above the battery's maximum power; it then gives that maximum.
   const double root2 = open_v * open_v - 4.0 * resistance_ohm_ * power_w;
   const double wanted_a =
       resistance_ohm_ > 0.0 ? (open_v - std::sqrt(std::max(0.0, root2))) / (2.0 * resistance_ohm_) : power_w / open_v;
