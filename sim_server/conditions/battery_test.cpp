@@ -14,7 +14,7 @@ constexpr double kMission_s = 300.0;
 
 BatteryConditions conditions(double endurance) { return {.endurance_missions = endurance}; }
 
-TEST(Battery, LetsItsVehicleHoverForItsEndurance) {
+TEST(Battery, ABatteryLetsItsVehicleHoverForItsEndurance) {
   for (const char* name : {"explorer", "photographer"}) {
     for (const double endurance : {0.5, 0.8, 1.5}) {
       const VehicleConfig vehicle = test::vehicle_named(name);
@@ -27,7 +27,7 @@ TEST(Battery, LetsItsVehicleHoverForItsEndurance) {
   }
 }
 
-TEST(Battery, KeepsItsEnergyBalanceUnderAnyLoad) {
+TEST(Battery, TheEnergyBalanceHoldsUnderAnyLoad) {
   const VehicleConfig vehicle = test::vehicle_named("explorer");
   Battery battery(conditions(0.8), vehicle, kMission_s);
   RandomStream draw(1, "battery_test", 0);
@@ -45,7 +45,7 @@ TEST(Battery, KeepsItsEnergyBalanceUnderAnyLoad) {
   EXPECT_GT(battery.heat_j(), 0.0);
 }
 
-TEST(Battery, SagsUnderLoad) {
+TEST(Battery, TheVoltageSagsUnderLoad) {
   const VehicleConfig vehicle = test::vehicle_named("explorer");
   const BatteryConditions config = conditions(1.0);
   Battery battery(config, vehicle, kMission_s);
@@ -63,7 +63,7 @@ TEST(Battery, SagsUnderLoad) {
   EXPECT_NEAR(status.capacity_ah * status.charge, battery.charge() * status.capacity_ah, 1e-12);
 }
 
-TEST(Battery, GivesNothingOnceItIsEmpty) {
+TEST(Battery, AnEmptyBatteryGivesNothing) {
   Battery battery(conditions(0.01), test::vehicle_named("photographer"), 1.0);
   while (!battery.empty()) battery.draw(100.0, 0.1);
   const double given_j = battery.given_j();
@@ -103,7 +103,7 @@ class BatterySwap : public testing::TestWithParam<std::uint64_t> {
   Tick tick_ = 0;
 };
 
-TEST_P(BatterySwap, GivesAUavThatHasLandedNearTheStationAFullBatteryOnce) {
+TEST_P(BatterySwap, AUavThatHasLandedNearTheStationGetsAFullBatteryOnce) {
   uav_.emplace(scenario_, 1, UavIndex{0});
   stay(0.0, 2.0 * swap_s_, false);
   EXPECT_EQ(uav_->battery_use().swaps, 0U) << "it has not flown";
@@ -124,7 +124,7 @@ TEST_P(BatterySwap, GivesAUavThatHasLandedNearTheStationAFullBatteryOnce) {
 }
 
 // If the UAV's program is away, the UAV stays on the ground, where its controller uses the battery.
-TEST_P(BatterySwap, ComesAgainToAUavThatStandsThereWithALowBattery) {
+TEST_P(BatterySwap, AUavThatStandsNearTheStationWithALowBatteryGetsAnother) {
   uav_.emplace(scenario_, 1, UavIndex{0});
   stay(0.0, 5.0, true);
   for (int swaps = 1; swaps <= 3; ++swaps) {
@@ -149,7 +149,7 @@ TEST_P(BatterySwap, EachOfTwoEqualFaultsDrainsTheBatteryInTheUavOnce) {
   }
 }
 
-TEST_P(BatterySwap, NeverComesToAUavWhoseBatteryIsEmpty) {
+TEST_P(BatterySwap, AUavWhoseBatteryIsEmptyGetsNoOther) {
   uav_.emplace(scenario_, 1, UavIndex{0});
   stay(0.0, 5.0, true);
   test::Flight flight(scenario_.fleet[UavIndex{0}].vehicle);
@@ -160,7 +160,7 @@ TEST_P(BatterySwap, NeverComesToAUavWhoseBatteryIsEmpty) {
   EXPECT_EQ(uav_->battery_use().swaps, 0U);
 }
 
-TEST_P(BatterySwap, NeverComesWithoutSwaps) {
+TEST_P(BatterySwap, WithoutSwapsAUavGetsNoOtherBattery) {
   scenario_.conditions.battery.swap_s.reset();
   uav_.emplace(scenario_, 1, UavIndex{0});
   most_charge_ = 0.3;
@@ -171,7 +171,7 @@ TEST_P(BatterySwap, NeverComesWithoutSwaps) {
 
 INSTANTIATE_TEST_SUITE_P(Drawn, BatterySwap, testing::Range<std::uint64_t>(1, 7));
 
-TEST(ElectricPower, OfAHoverIsThatOfMomentumTheory) {
+TEST(ElectricPower, AHoverNeedsThePowerOfMomentumTheory) {
   const VehicleConfig vehicle = test::vehicle_named("explorer");
   const BatteryConditions config = conditions(1.0);
   test::Flight flight(vehicle);

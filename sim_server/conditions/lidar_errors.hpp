@@ -7,7 +7,7 @@
 //     full_range_m sqrt(reflectivity cos(incidence)), and loses dark, wet and slanted surfaces, and the edges of thin
 //     members, first. The incidence angle is estimated from the ranges of the two adjacent beams of the scan.
 //   Rain and dust: a drop or a dust particle may return a beam before the beam reaches a surface.
-// The noise of a beam depends on seed, UAV, scan and the beam's index, not on what other beams hit or on rain.
+// The random number for a beam's noise depends only on seed, UAV, scan and the beam's index.
 // Units: SI.  Pure; threads: one.  The same seed and scan give the same numbers.
 #pragma once
 

@@ -31,7 +31,7 @@ std::vector<double> wall(const LidarConfig& lidar, double distance_m) {
   return ranges;
 }
 
-TEST(LidarErrors, FindTheIncidenceOnAWall) {
+TEST(LidarErrors, TheIncidenceOnAWallFollowsFromTheRanges) {
   const LidarConfig lidar = one_ring();
   const std::vector<double> ranges = wall(lidar, 10.0);
   const LidarErrors errors({}, lidar, 1, UavIndex{0});
@@ -59,7 +59,7 @@ TEST(LidarErrors, DarkSurfacesVanishAtTheRangeThatTheirAngleAllows) {
 
 /// measure() mostly compares powers instead of roots. It must lose the same returns as the formula, also those whose
 /// range is within a rounding error of the limit.
-TEST(LidarErrors, LoseTheReturnsThatTheFormulaLoses) {
+TEST(LidarErrors, ExactlyTheReturnsThatTheFormulaLosesAreLost) {
   LidarConfig lidar;
   lidar.rings = 4;
   lidar.columns = 90;
@@ -199,7 +199,7 @@ LidarConditions drawn_conditions(RandomStream& draw) {
   return conditions;
 }
 
-TEST(LidarErrors, DependOnlyOnSeedUavScanAndConditions) {
+TEST(LidarErrors, TheErrorsDependOnlyOnSeedUavScanAndConditions) {
   LidarConfig lidar;
   lidar.rings = 4;
   RandomStream draw(3, "lidar_errors_test", 0);
@@ -218,8 +218,8 @@ TEST(LidarErrors, DependOnlyOnSeedUavScanAndConditions) {
   }
 }
 
-/// Neither rain nor what other beams hit changes the noise of a beam, and noise changes no loss.
-TEST(LidarErrors, DoNotDependOnEachOther) {
+/// Neither rain nor the ranges of beams that are not adjacent change the noise of a beam, and noise changes no loss.
+TEST(LidarErrors, TheErrorsDoNotDependOnEachOther) {
   LidarConfig lidar;
   lidar.rings = 4;
   RandomStream draw(4, "lidar_errors_test", 0);

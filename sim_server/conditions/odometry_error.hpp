@@ -59,7 +59,7 @@ class OdometryError {
   /// Standard deviations of the error of told().
   PoseUncertainty uncertainty() const;
 
-  /// For tests of the errors' statistics with and without a fix: no message tells which of both holds.
+  /// For tests of the errors' statistics with and without a fix: no message tells whether there is a fix.
   bool has_fix() const { return !lost_; }
   Vector3d position_error_m() const;  ///< in W
   double yaw_error() const;           ///< [rad]

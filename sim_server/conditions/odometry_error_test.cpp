@@ -15,7 +15,7 @@ namespace {
 constexpr double kStep_s = 0.05;
 const Quaterniond kTilted(Matrix3d(rotation_z(1.3) * rotation_y(-0.2)));
 
-TEST(OdometryError, IsAGaussMarkovProcessOfItsDeviationAndTimeConstant) {
+TEST(OdometryError, TheErrorIsAGaussMarkovProcessOfItsDeviationAndTimeConstant) {
   const OdometryConditions config{.horizontal_sigma_m = 0.3,
                                   .vertical_sigma_m = 0.6,
                                   .time_constant_s = 5.0,
@@ -46,7 +46,7 @@ TEST(OdometryError, IsAGaussMarkovProcessOfItsDeviationAndTimeConstant) {
 }
 
 /// believed() uses a rotation that is computed when the error changes.
-TEST(OdometryError, TurnsByItsYawBitForBit) {
+TEST(OdometryError, TheBelievedAttitudeIsTurnedByTheYawErrorBitForBit) {
   OdometryConditions config{.yaw_sigma_deg = 3.0, .yaw_time_constant_s = 2.0, .mean_fix_s = {}};
   OdometryError error(config, 3, UavIndex{1});
   RigidBodyState truth;
@@ -66,7 +66,7 @@ TEST(OdometryError, TurnsByItsYawBitForBit) {
   expect_turned();
 }
 
-TEST(OdometryError, IsZeroAtAKnownStartAndThenGrowsToItsDeviation) {
+TEST(OdometryError, TheErrorIsZeroAtAKnownStartAndThenGrowsToItsDeviation) {
   constexpr std::uint64_t kSeeds = 4000;
   const OdometryConditions config{.horizontal_sigma_m = 0.3,
                                   .vertical_sigma_m = 0.6,
@@ -144,7 +144,7 @@ Nees nees(const OdometryConditions& config, bool only_without_fix = false,
 /// Four deviations of the mean of n sums of squares of `dof` normal numbers.
 double tolerance(double dof, std::size_t n) { return 4.0 * std::sqrt(2.0 * dof / static_cast<double>(n)); }
 
-TEST(OdometryError, ItsCovarianceIsConsistentWithItsActualErrors) {
+TEST(OdometryError, TheStatedCovarianceIsConsistentWithTheActualErrors) {
   for (const char* preset : {"breezy", "harsh"}) {
     OdometryConditions config = conditions_preset(preset).odometry;
     const Nees all = nees(config);
@@ -154,7 +154,7 @@ TEST(OdometryError, ItsCovarianceIsConsistentWithItsActualErrors) {
   }
 }
 
-TEST(OdometryError, ItsCovarianceIsConsistentWithoutAFixToo) {
+TEST(OdometryError, TheStatedCovarianceIsConsistentWithoutAFixToo) {
   OdometryConditions config = conditions_preset("harsh").odometry;
   config.mean_fix_s = 10.0;
   config.mean_lost_s = 10.0;
@@ -164,7 +164,7 @@ TEST(OdometryError, ItsCovarianceIsConsistentWithoutAFixToo) {
   EXPECT_NEAR(lost.position, 3.0, tolerance(3.0, lost.samples));
 }
 
-TEST(OdometryError, ItsCovarianceIsConsistentWhileItIsJammedAndItsConditionsChange) {
+TEST(OdometryError, TheStatedCovarianceIsConsistentWhenTheFixIsJammedAndConditionsChange) {
   OdometryConditions config = conditions_preset("harsh").odometry, worse = config;
   config.mean_fix_s = 10.0;
   worse.horizontal_sigma_m *= 3.0;
@@ -182,7 +182,7 @@ TEST(OdometryError, ItsCovarianceIsConsistentWhileItIsJammedAndItsConditionsChan
   EXPECT_NEAR(lost.position, 3.0, tolerance(3.0, lost.samples));
 }
 
-TEST(OdometryError, WalksOffWithoutAFixAndJumpsBackWithOne) {
+TEST(OdometryError, ThePositionErrorWalksOffWithoutAFixAndJumpsBackWithOne) {
   OdometryConditions config{
       .horizontal_sigma_m = 0.1, .vertical_sigma_m = 0.1, .time_constant_s = 1e4, .mean_fix_s = {}};
   config.mean_fix_s = 20.0;
@@ -215,7 +215,7 @@ TEST(OdometryError, WalksOffWithoutAFixAndJumpsBackWithOne) {
   EXPECT_GT(jumps / returns, 3.0) << "a fix removes the drift of a minute in one jump";
 }
 
-TEST(OdometryError, PlacesSeenPointsByTheBelievedPose) {
+TEST(OdometryError, SeenPointsAppearWhereTheToldPosePutsThem) {
   OdometryError error(conditions_preset("harsh").odometry, 5, UavIndex{0});
   const RigidBodyState truth{.p_WB = {3, -4, 20}, .q_WB = kTilted};
   const Isometry3d X_told_W = error.X_told_W(truth);

@@ -9,7 +9,7 @@
 namespace skein::sim {
 namespace {
 
-TEST(ShadowField, IsStandardNormalAndCorrelatedAsAnExponential) {
+TEST(ShadowField, TheFieldIsStandardNormalAndItsCorrelationFallsExponentially) {
   constexpr double kDecorrelation_m = 15.0;
   constexpr int kFields = 4000;
   for (const double apart_m : {0.0, 5.0, 15.0, 45.0}) {
@@ -25,7 +25,7 @@ TEST(ShadowField, IsStandardNormalAndCorrelatedAsAnExponential) {
   }
 }
 
-TEST(PathLoss, FollowsTheLogDistanceLawWithItsShadowing) {
+TEST(PathLoss, TheReceivedPowerFollowsTheLogDistanceLawWithShadowing) {
   RadioConditions radio = conditions_preset("harsh").radio;
   RandomStream draw(1, "path_loss_test", 0);
   double sum = 0.0, squares = 0.0;

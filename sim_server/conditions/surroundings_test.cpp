@@ -41,7 +41,7 @@ class Windy : public testing::Test {
     simulation_ = std::make_unique<Simulation>(scenario_, scene_, seed, faults);
     return *simulation_;
   }
-  /// All hover above their starts. @returns the digest.
+  /// All UAVs hover above their starts. @returns the digest.
   std::string hover(
       double until_s, const std::function<void()>& watch = [] {}) {
     RunDigest digest(scenario_.uav_names());
@@ -98,7 +98,7 @@ TEST_F(Windy, WindPushesAUavDownwindUntilItLeansIntoIt) {
   hover(25.0, [&] { most_off_m = std::max(most_off_m, 0.1 - uav().state.p_WB.x()); });
   EXPECT_GT(most_off_m, 0.15) << "to the west";
   ASSERT_TRUE(sim.uav(UavIndex{0}).airborne);
-  // In balance the thrust's share across is the drag of rotors and body in that air.
+  // In equilibrium, the horizontal component of the thrust balances the drag of rotors and body.
   const Vector3d v_A(WindProfile(scenario_.conditions.wind).mean(8.0), 0, 0);
   const double body_n = body_drag(scenario_.conditions.wind.body_drag_area_m2, v_A).norm();
   const VehicleConfig& vehicle = scenario_.fleet[UavIndex{0}].vehicle;
@@ -206,7 +206,7 @@ TEST_F(Windy, SensorsAndRadioAreAsBeforeOnceAChangeEnds) {
   EXPECT_EQ(linked[2], linked[0]);
 }
 
-TEST_F(Windy, AHoverCostsWhatMomentumTheorySays) {
+TEST_F(Windy, AHoverCostsTheEnergyOfMomentumTheory) {
   scenario_.conditions.battery.endurance_missions = 1.0;
   scenario_.duration_s = 100.0;
   start();
@@ -322,7 +322,7 @@ TEST_F(Windy, TheQualityOfALinkIsItsReceivedPowerAndItsRate) {
   EXPECT_GE(closed, 20 * 20 * (4 + 6)) << "links of all nodes to themselves, and of the node without a radio";
 }
 
-TEST_F(Windy, AShutterThatIsLateAndALongExposureBlurWhatAMovingCameraSees) {
+TEST_F(Windy, LongExposuresAndVibrationBlurPicturesAndAShutterDelayMakesThemLate) {
   struct Seen {
     float best = 0.0F;       ///< of a point
     double mean_blur = 0.0;  ///< quality of all pictures of points: 1 is sharp
@@ -354,7 +354,7 @@ TEST_F(Windy, AShutterThatIsLateAndALongExposureBlurWhatAMovingCameraSees) {
   EXPECT_GT(flown_with({.shutter_delay_s = 0.5}).first, usual.first);
 }
 
-TEST_F(Windy, OnlyDriftAndWindRecordWhatTheyCost) {
+TEST_F(Windy, ScoresLostToDriftOrWindAreRecordedOnlyWithThatCondition) {
   const auto shown_with = [&](const std::string& odometry, const std::string& wind) {
     scenario_.conditions = {};
     scenario_.conditions.odometry = conditions_preset(odometry).odometry;
@@ -384,7 +384,7 @@ TEST_F(Windy, OnlyDriftAndWindRecordWhatTheyCost) {
   EXPECT_GT(count(both.if_calm), 0);
 }
 
-TEST_F(Windy, OldOdometryCarriesTheTickThatItIsOf) {
+TEST_F(Windy, DelayedOdometryHasTheTickOfItsState) {
   scenario_.conditions.odometry.latency_s = 0.15;
   start();
   std::vector<RigidBodyState> states;

@@ -51,7 +51,7 @@ class Flown {
   Tick tick_ = 0;
 };
 
-TEST(WindPush, IsTheDifferenceToTheSameFlightWithoutWind) {
+TEST(WindPush, TheEstimateIsTheDifferenceToTheSameFlightWithoutWind) {
   double off_m2 = 0.0, missed_m2 = 0.0, off_mps2 = 0.0, missed_mps2 = 0.0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "wind_push_test", 0);
@@ -81,7 +81,7 @@ TEST(WindPush, IsTheDifferenceToTheSameFlightWithoutWind) {
       << "43 %, 3 cm/s, when measured: the attitude loop lags in gusts";
 }
 
-TEST(WindPush, IncludesTheGustOfAFault) {
+TEST(WindPush, TheEstimateIncludesTheGustOfAFault) {
   double off_m2 = 0.0, missed_m2 = 0.0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "wind_push_test_gust", 0);

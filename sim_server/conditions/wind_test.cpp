@@ -1,4 +1,4 @@
-// The wind against its formulas, over long samples.
+// Compares the wind with its formulas, over long samples.
 #include "sim_server/conditions/wind.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ double power_density(const std::vector<double>& x, double way, double omega) {
   return sum * way / taper2 / static_cast<double>(windows);
 }
 
-TEST(Gusts, HaveDrydensCorrelationsAndUnitVarianceWhateverTheStep) {
+TEST(Gusts, GustsHaveDrydensCorrelationsAndUnitVarianceWithAnyStep) {
   for (const double way : {0.02, 0.1, 0.5}) {
     const std::vector<double> u = sampled(false, way, 600'000), v = sampled(true, way, 600'000);
     const double tolerance = 4.0 * std::sqrt(2.0 / (way * 600'000.0));
@@ -60,7 +60,7 @@ TEST(Gusts, HaveDrydensCorrelationsAndUnitVarianceWhateverTheStep) {
   }
 }
 
-TEST(Gusts, HaveDrydensSpectra) {
+TEST(Gusts, GustsHaveDrydensSpectra) {
   constexpr double kWay = 0.05;
   const std::vector<double> u = sampled(false, kWay, 2'000'000), v = sampled(true, kWay, 2'000'000);
   for (const double omega : {0.3, 1.0, 2.0, 5.0, 10.0}) {  // of unit variance and length
@@ -71,7 +71,7 @@ TEST(Gusts, HaveDrydensSpectra) {
   }
 }
 
-TEST(MeanWind, FollowsTheLogarithmicLaw) {
+TEST(MeanWind, TheMeanWindFollowsTheLogarithmicLaw) {
   const WindConditions wind{.mean_mps = 8.0, .from_deg = {}, .roughness_length_m = 0.1};
   EXPECT_DOUBLE_EQ(WindProfile(wind).mean(10.0), 8.0);
   EXPECT_NEAR(WindProfile(wind).mean(40.0) - WindProfile(wind).mean(20.0), 8.0 * std::log(2.0) / std::log(100.0),
@@ -80,7 +80,7 @@ TEST(MeanWind, FollowsTheLogarithmicLaw) {
   EXPECT_EQ(WindProfile(wind).mean(-3.0), 0.0);
 }
 
-TEST(GustScales, AreThoseOfMilF8785C) {
+TEST(GustScales, TheScalesAreThoseOfMilF8785C) {
   const WindConditions wind{.mean_mps = 10.0, .from_deg = {}, .turbulence = 1.0};
   const double w20 = WindProfile(wind).mean(6.096);
   // At 1000 feet the base is 1: all deviations and lengths agree.
@@ -117,7 +117,7 @@ Moments moments(const WindConditions& conditions, double height_m, const Vector3
   return sum;
 }
 
-TEST(Wind, HasItsMeanAndItsVariancesHoveringAndFlying) {
+TEST(Wind, TheWindHasItsMeanAndVariancesForHoveringAndForFlyingUavs) {
   const WindConditions conditions{.mean_mps = 7.0, .from_deg = {}, .turbulence = 1.5};
   for (const Vector3d& v_WB : {Vector3d(0, 0, 0), Vector3d(4, -2, 1)}) {
     for (const double height_m : {8.0, 40.0}) {
@@ -136,7 +136,7 @@ TEST(Wind, HasItsMeanAndItsVariancesHoveringAndFlying) {
 }
 
 /// WindProfile computes each part once, and again only if the height has changed. Digests require the same bits.
-TEST(Wind, ItsProfileIsThatOfTheFormulasBitForBit) {
+TEST(Wind, TheProfileIsThatOfTheFormulasBitForBit) {
   RandomStream draw(5, "wind_test", 0);
   for (int i = 0; i < 50; ++i) {
     const WindConditions wind{.mean_mps = draw.uniform(0.1, 25.0),
@@ -163,7 +163,7 @@ TEST(Wind, ItsProfileIsThatOfTheFormulasBitForBit) {
   }
 }
 
-TEST(Wind, BlowsAsItsNewConditionsSayAfterAChange) {
+TEST(Wind, AfterAChangeTheWindFollowsItsNewConditions) {
   const WindConditions before{.mean_mps = 5.0, .from_deg = {}, .turbulence = 1.0, .estimate_sigma_mps = 0.0};
   WindConditions after = before;
   after.turbulence = 2.5;  // unlike another mean, it leaves the first step of the gusts as it is
@@ -183,14 +183,14 @@ TEST(Wind, BlowsAsItsNewConditionsSayAfterAChange) {
   }
 }
 
-TEST(Wind, IsToldWithItsOwnError) {
+TEST(Wind, TheEstimateOfTheWindHasItsOwnError) {
   const WindConditions conditions{.mean_mps = 5.0, .from_deg = {}, .turbulence = 0.0, .estimate_sigma_mps = 0.5};
   const Moments m = moments(conditions, 10.0, Vector3d::Zero(), [](const Wind& wind) { return wind.estimate_W(); });
   EXPECT_NEAR(m.mean.x(), 5.0, 0.03);
   for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(m.variance[axis], 0.25, 0.02);
 }
 
-TEST(Wind, IsTheSameForTheSameSeedAndBlowsFromOneSideForAll) {
+TEST(Wind, TheSameSeedGivesTheSameWindAndOneDirectionForAllUavs) {
   const WindConditions conditions{.mean_mps = 5.0, .from_deg = {}, .turbulence = 1.0};
   Wind one(conditions, 4, UavIndex{0}), same(conditions, 4, UavIndex{0}), other(conditions, 4, UavIndex{1});
   Wind another_run(conditions, 5, UavIndex{0});
@@ -207,7 +207,7 @@ TEST(Wind, IsTheSameForTheSameSeedAndBlowsFromOneSideForAll) {
   EXPECT_LT((north.velocity_W() - Vector3d(0, -5, 3)).norm(), 1e-12) << "with what a fault adds";
 }
 
-TEST(BodyDrag, GrowsWithTheSquareOfTheAirspeedAgainstIt) {
+TEST(BodyDrag, TheDragOpposesTheAirspeedAndGrowsWithItsSquare) {
   EXPECT_LT((body_drag(0.03, {10, 0, 0}) - Vector3d(-0.5 * 1.225 * 0.03 * 100.0, 0, 0)).norm(), 1e-12);
   EXPECT_LT((body_drag(0.03, {0, -20, 0}) + 4.0 * body_drag(0.03, {0, 10, 0})).norm(), 1e-12);
 }

@@ -32,8 +32,8 @@ class ClearanceMemory {
   void forget() { clear_at_W_.reset(); }
 
  private:
-  std::optional<Vector3d> clear_at_W_;  ///< the body cannot touch the mesh while its centre ...
-  double room_ = 0.0;                   ///< ... is within this distance of clear_at_W_ [m]
+  std::optional<Vector3d> clear_at_W_;  ///< the body's centre at the last search; none: the body might touch the mesh
+  double room_ = 0.0;                   ///< the body cannot touch the mesh within this distance of clear_at_W_ [m]
   bool tested_ = false;                 ///< whether the last search found that the body might touch the mesh
 };
 

@@ -22,7 +22,7 @@ class CommandGuardTest : public testing::Test {
   RulesConfig rules_;
 };
 
-TEST_F(CommandGuardTest, RefusesWhatIsBeyondTheLimits) {
+TEST_F(CommandGuardTest, TheGuardRefusesCommandsBeyondTheLimits) {
   const CommandGuard guard(vehicle_, rules_);
   EXPECT_FALSE(guard.refuse({.p_WB = {1e6, 0, 0}}, {}));
   EXPECT_FALSE(guard.refuse({.v_WB = {6, 0, 0}, .a_WB = {0, 0, 4}}, {}));
@@ -33,7 +33,7 @@ TEST_F(CommandGuardTest, RefusesWhatIsBeyondTheLimits) {
   EXPECT_TRUE(guard.refuse({.v_WB = {1, 0, 0}, .a_WB = {0, -5, 0}}, {}));
 }
 
-TEST_F(CommandGuardTest, RefusesAYawRateBeyondTheLimitButNoYaw) {
+TEST_F(CommandGuardTest, TheGuardRefusesAYawRateBeyondTheLimitButNoYaw) {
   vehicle_.max_yaw_rate_deg_s = 60.0;
   const CommandGuard guard(vehicle_, rules_);
   const double limit = 60.0 * M_PI / 180.0;
@@ -57,7 +57,7 @@ TEST_F(CommandGuardTest, TheTwoSwitchesAreIndependent) {
   EXPECT_TRUE(CommandGuard(vehicle_, rules_).refuse({.v_WB = {60, 0, 0}}, {}));
 }
 
-TEST_F(CommandGuardTest, RefusesBareAccelerationAtTheSpeedLimitButNotBraking) {
+TEST_F(CommandGuardTest, TheGuardRefusesBareAccelerationAtTheSpeedLimitButNotBraking) {
   const CommandGuard guard(vehicle_, rules_);
   const RigidBodyState fast{.v_WB = {5.95, 0, 0}};
   EXPECT_TRUE(guard.refuse({.a_WB = {3, 0, 0}}, fast));
@@ -65,7 +65,7 @@ TEST_F(CommandGuardTest, RefusesBareAccelerationAtTheSpeedLimitButNotBraking) {
   EXPECT_FALSE(guard.refuse({.v_WB = {5.9, 0, 0}, .a_WB = {3, 0, 0}}, fast)) << "the velocity bounds the speed";
 }
 
-TEST_F(CommandGuardTest, NeverAcceptsWhatIsNotANumber) {
+TEST_F(CommandGuardTest, TheGuardNeverAcceptsNumbersThatAreNotFinite) {
   rules_.reject_commands_beyond_limits = false;
   const CommandGuard guard(vehicle_, rules_);
   EXPECT_FALSE(guard.refuse({.v_WB = {100, 0, 0}}, {}));
@@ -100,7 +100,7 @@ TEST_F(CommandGuardTest, TheFarthestPositionIsLedToWithinTheLimitsAndNoneBeyondI
   }
 }
 
-TEST_F(CommandGuardTest, PassesNearPositionsUntouched) {
+TEST_F(CommandGuardTest, TheGuardPassesNearPositionsUnchanged) {
   CommandGuard guard(vehicle_, rules_);
   const TrajectoryCommand near{.p_WB = {10.9, 0, 5}, .v_WB = {1, 0, 0}};
   EXPECT_EQ(guard.lead(near, {.p_WB = {10, 0, 5}}).p_WB, near.p_WB);
@@ -170,7 +170,7 @@ TEST_F(CommandGuardTest, BarePositionsAreApproachedWithinTheLimits) {
   EXPECT_GT(fastest, 5.8);
 }
 
-TEST_F(CommandGuardTest, ThePointAheadSpeedsUpBrakesAndArrivesAsItShould) {
+TEST_F(CommandGuardTest, ThePointAheadReachesTheTargetWithinItsLimits) {
   constexpr double kStepS = 0.05, kSpeedUp = 4.0 * kStepS, kBraking = 0.8 * kSpeedUp;
   for (std::uint64_t i = 0; i < 60; ++i) {
     RandomStream random(i, "guard_point", 0);
@@ -215,7 +215,7 @@ TEST_F(CommandGuardTest, ThePointAheadMayBecomeTheTarget) {
   EXPECT_NEAR((mass.state().p_WB - target).norm(), 0.0, 0.02);
 }
 
-TEST_F(CommandGuardTest, StopsWithinItsBrakingDistanceAndALittle) {
+TEST_F(CommandGuardTest, AUavStopsWithinALittleMoreThanItsBrakingDistance) {
   PointMass mass(vehicle_, rules_, {.p_WB = {200, 0, 200}, .v_WB = {6, 0, 0}});
   double farthest = 0.0;
   for (int i = 0; i < 400; ++i) {
@@ -227,7 +227,7 @@ TEST_F(CommandGuardTest, StopsWithinItsBrakingDistanceAndALittle) {
   EXPECT_NEAR(mass.state().p_WB.x(), 200.0, 0.02);
 }
 
-TEST_F(CommandGuardTest, SwitchedOffItPassesEveryCommandUnchanged) {
+TEST_F(CommandGuardTest, AGuardThatIsSwitchedOffPassesEveryCommandUnchanged) {
   rules_.guard_position_commands = false;
   CommandGuard guard(vehicle_, rules_);
   const TrajectoryCommand far{.p_WB = {1e4, 0, 50}, .v_WB = {1, 2, 3}, .a_WB = {4, 5, 6}, .yaw = 7, .yaw_rate = 8};
@@ -240,7 +240,7 @@ TEST_F(CommandGuardTest, SwitchedOffItPassesEveryCommandUnchanged) {
   EXPECT_EQ(guard.limit_yaw_rate(100.0), 100.0);
 }
 
-TEST_F(CommandGuardTest, LimitsTheYawRateThatTheLawDemands) {
+TEST_F(CommandGuardTest, TheGuardLimitsTheYawRateThatTheLawDemands) {
   vehicle_.max_yaw_rate_deg_s = 30.0;
   const CommandGuard guard(vehicle_, rules_);
   EXPECT_DOUBLE_EQ(guard.limit_yaw_rate(1.5), 30.0 * M_PI / 180.0);
@@ -249,7 +249,7 @@ TEST_F(CommandGuardTest, LimitsTheYawRateThatTheLawDemands) {
 }
 
 TEST_F(CommandGuardTest, AMovingPositionAheadAtFullSpeedIsHeldBack) {
-  // Velocity at the limit and the position always ahead would add up to more.
+  // A velocity at the limit together with a position ahead of the UAV would demand a speed above the limit.
   CommandGuard guard(vehicle_, rules_);
   const TrajectoryCommand led =
       guard.lead({.p_WB = {10.9, 0, 5}, .v_WB = {6, 0, 0}}, {.p_WB = {10, 0, 5}, .v_WB = {6, 0, 0}});

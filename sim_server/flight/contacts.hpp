@@ -8,7 +8,7 @@
 
 namespace skein::sim {
 
-/// What a UAV can touch.
+/// A body that takes part in contacts: a UAV, or a thing that a UAV can touch.
 struct BodyId {
   enum class Kind { ground, structure, uav };
   Kind kind = Kind::ground;

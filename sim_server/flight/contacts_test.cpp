@@ -24,7 +24,7 @@ TEST(Contacts, TheUavComesFirstAndOfTwoTheLower) {
   }
 }
 
-TEST(Contacts, OfEachPairTheDeepestRemainsInWhateverOrderTheyCome) {
+TEST(Contacts, TheDeepestPointOfEachPairRemainsInAnyOrderOfPoints) {
   std::mt19937_64 random(3);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   for (int round = 0; round < 200; ++round) {

@@ -1,4 +1,4 @@
-// The rigid body against mechanics: momentum, energy, work, gyroscopes.
+// Compares the rigid body with mechanics: momentum, energy, work, gyroscopes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -104,7 +104,7 @@ TEST(RigidBody, ASymmetricTopPrecesses) {
   }
 }
 
-TEST(RigidBody, AGyroscopeGivesWayAcrossThePush) {
+TEST(RigidBody, AGyroscopeTurnsAcrossTheTorque) {
   // A fast top that is pushed about x turns about y: its axis moves at torque by angular momentum.
   const VehicleConfig explorer = vehicle_named("explorer");
   const double spin = 60.0, torque = 0.05, duration = 1.0;
@@ -120,7 +120,7 @@ TEST(RigidBody, AGyroscopeGivesWayAcrossThePush) {
   EXPECT_NEAR(axis_W.y(), 0.0, 5e-4);
 }
 
-TEST(RigidBody, SpinsSteadilyAboutTheGreatestAndLeastInertiaOnly) {
+TEST(RigidBody, ABodySpinsSteadilyAboutTheAxesOfGreatestAndLeastInertiaOnly) {
   const VehicleConfig photographer = vehicle_named("photographer");  // Ix < Iy < Iz
   const auto axis_wanders = [&](const Vector3d& axis_B) {
     SpinningBody body(photographer, 8.0 * axis_B + Vector3d(0.01, 0.01, 0.01));

@@ -1,5 +1,5 @@
 // Vehicles composed of links, whose centre of mass is not the origin of their frame, compared with equations of motion
-// that are written down and integrated here, and with what every rigid body conserves.
+// that are written down and integrated here, and with the quantities that every rigid body conserves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ using test::Flight;
 using test::hover_at;
 using test::vehicle_named;
 
-/// A rigid body by Newton and Euler, about its centre of mass, through Runge and Kutta's method.
+/// A rigid body by the Newton-Euler equations about its centre of mass, integrated with the Runge-Kutta method.
 struct NewtonEuler {
   double mass = 0.0;
   Vector3d p_BBcm = Vector3d::Zero();
@@ -93,7 +93,7 @@ struct NewtonEuler {
 
 std::pair<Vector3d, Vector3d> no_wrench(const RigidBodyState&) { return {Vector3d::Zero(), Vector3d::Zero()}; }
 
-/// The benchmark's explorer in figures: body, LiDAR with servo, six rotors.
+/// The benchmark's explorer in numbers: body, LiDAR with servo, six rotors.
 NewtonEuler explorer_by_hand() {
   NewtonEuler body;
   body.add(2.5, {0.07648816666, 0.07648816666, 0.16283333333}, Vector3d::Zero());
@@ -279,7 +279,7 @@ TEST(CompositeBody, APushAtBoTurnsABodyWhoseCentreOfMassIsElsewhere) {
   }
 }
 
-TEST(CompositeBody, RestsWhereItsLowestBoxIsAndHoversWithoutDrift) {
+TEST(CompositeBody, AVehicleRestsOnItsLowestBoxAndHoversWithoutDrift) {
   RandomStream random(5, "landings", 0);
   for (int i = 0; i < 10; ++i) {
     VehicleConfig vehicle = vehicle_named("explorer");
@@ -301,7 +301,7 @@ TEST(CompositeBody, RestsWhereItsLowestBoxIsAndHoversWithoutDrift) {
 }
 
 TEST(PlausibleVehicles, AVehicleThatTheReaderAcceptsStaysInTheWorld) {
-  // Numbers drawn over decades: a vehicle either is refused, or its physics holds, however badly it flies.
+  // Random numbers over decades: the reader refuses a vehicle, or its speeds stay finite, however badly it flies.
   RandomStream random(6, "oddities", 0);
   const auto decades = [&](double middle, double lowest, double highest) {
     return middle * std::pow(10.0, random.uniform(lowest, highest));

@@ -1,5 +1,5 @@
-// The flying vehicle against physics: weight, fall, second-order response, limits, motor lag. The expected
-// values are computed by hand, not by the code under test.
+// Compares the flying vehicle with physics: weight, fall, second-order response, limits, motor lag. The expected values
+// are computed by hand, not by the code under test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,7 +40,7 @@ TEST_P(Dynamics, HoverThrustEqualsWeight) {
   EXPECT_LT((flight.state().p_WB - Vector3d(1, 2, 50.5)).norm(), 0.02);
 }
 
-TEST_P(Dynamics, FallsFreelyAfterStop) {
+TEST_P(Dynamics, AUavFallsFreelyAfterStop) {
   // The rotors run down exponentially, from a thrust that carried the weight; a level fall has no drag in this model.
   Flight flight(config_, 300.0);
   flight.fly(30.0, hover_at({1, 0, 300}));
@@ -168,7 +168,7 @@ TEST_P(Dynamics, TiltAndThrustStayWithinTheirLimits) {
   EXPECT_GE(lowest_demand, 0.3 * 9.781 - 1e-9) << "it never dives upside down";
 }
 
-TEST_P(Dynamics, TurnsNoFasterThanTheVehicleMay) {
+TEST_P(Dynamics, AUavTurnsNoFasterThanItsVehicleMay) {
   for (const double limit_deg : {20.0, 45.0, 90.0}) {
     config_.max_yaw_rate_deg_s = limit_deg;
     Flight flight(config_);

@@ -58,7 +58,7 @@ TEST_F(Timing, ControllersRunAt20Hz) {
 }
 
 TEST_F(Timing, TheAttitudeLoopRunsAt400Hz) {
-  // A body that tilts between two steps of the 20 Hz law is answered within the tick.
+  // When the body tilts between two steps of the 20 Hz law, the rotors respond within the tick.
   const VehicleConfig config = test::vehicle_named("explorer");
   Vehicle vehicle(config, {});
   RigidBodyState state{.p_WB = {0, 0, 10}};
@@ -109,7 +109,7 @@ TEST_F(Timing, TheClockCountsTicksFromTakeOffToEnd) {
 }
 
 TEST_F(Timing, ARunThatNeverFliesEndsAtTheTimeout) {
-  // Commands arrive, but none that lifts it off.
+  // Commands arrive, but none makes the UAV take off.
   scenario_.takeoff_timeout_s = 1.5;
   scenario_.exchange_period_s = 0.05;
   Simulation waiting(scenario_, sim().scene(), 0);

@@ -75,7 +75,7 @@ TEST(FleetStart, DrawsStayInBoundsAndNeverOverlap) {
 
 VehicleConfig shipped(const std::string& name) { return load_vehicle(name, source_path("config")); }
 
-TEST(FleetStart, AUavThatStartsAsFarAwayAsItMustTouchesNoOther) {
+TEST(FleetStart, UavsAtTheLeastStartDistanceDoNotTouch) {
   RandomStream random(1, "pairs", 0);
   for (int i = 0; i < 200; ++i) {
     const VehicleConfig a = shipped(i % 2 == 0 ? "explorer" : "photographer");
@@ -98,7 +98,7 @@ TEST(FleetStart, AUavThatStartsAsFarAwayAsItMustTouchesNoOther) {
   }
 }
 
-TEST(FleetStart, DrawsFromALegalCrowdAreLegal) {
+TEST(FleetStart, DrawnStartsKeepTheLeastDistanceIfTheScenarioKeepsIt) {
   RandomStream random(2, "crowds", 0);
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Scenario scenario;
@@ -123,7 +123,7 @@ TEST(FleetStart, DrawsFromALegalCrowdAreLegal) {
   }
 }
 
-TEST(FleetStart, AStationWithoutAWayOutIsTheUsersMistake) {
+TEST(FleetStart, AStationWithoutAWayOutIsAnInputError) {
   // A closed block with a hall in it, 1 m of wall around; places drawn on both sides of the walls.
   TriangleMesh mesh;
   test::add_box(mesh, {10, 0, 4}, {12, 12, 10});
@@ -169,7 +169,7 @@ TEST(FleetStart, AFleetThatIsTooCrowdedForDrawsStartsAtItsNominalPlaces) {
   EXPECT_EQ(draw_fleet_start(scenario, 5, open_field, in_the_open)[1].X_WB.translation().head<2>(), Vector2d(0.8, 0.0));
 }
 
-TEST(FleetStart, AStartInTheStructureIsTheUsersMistake) {
+TEST(FleetStart, AStartInTheStructureIsAnInputError) {
   const Scenario scenario = two_close_and_one_apart();
   const auto touches = [](const VehicleConfig&, const Isometry3d& X_WB) { return X_WB.translation().x() > 10.0; };
   try {
@@ -182,7 +182,7 @@ TEST(FleetStart, AStartInTheStructureIsTheUsersMistake) {
   }
 }
 
-TEST(FleetStart, AStartWithoutAWayOutIsTheUsersMistake) {
+TEST(FleetStart, AStartWithoutAWayOutIsAnInputError) {
   const Scenario scenario = two_close_and_one_apart();
   const auto enclosed = [](const Vector3d& p_WB) { return p_WB.x() > 10.0 && p_WB.z() > 0.0; };
   try {

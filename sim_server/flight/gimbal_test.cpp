@@ -13,7 +13,7 @@ namespace {
 GimbalCommand angle(double pitch, double yaw) { return {GimbalMode::angle, pitch, yaw}; }
 GimbalCommand rate(double pitch, double yaw) { return {GimbalMode::rate, pitch, yaw}; }
 
-TEST(Gimbal, ReportedRateIsTheMotionUnlessThePhantomIsAskedFor) {
+TEST(Gimbal, WithoutPhantomRateTheReportedRateIsThatOfTheMotion) {
   Gimbal gimbal({});
   for (int i = 0; i < 400; ++i) {
     const GimbalState before = gimbal.state();
@@ -30,7 +30,7 @@ TEST(Gimbal, ReportedRateIsTheMotionUnlessThePhantomIsAskedFor) {
   }
 }
 
-TEST(Gimbal, AtTheStopOnlyThePhantomTurns) {
+TEST(Gimbal, AtAnAngleLimitOnlyThePhantomRateIsNotZero) {
   Gimbal honest({}), phantom({}, true);
   for (int i = 0; i < 60; ++i) {
     honest.step(rate(0, 1.0));
@@ -41,7 +41,7 @@ TEST(Gimbal, AtTheStopOnlyThePhantomTurns) {
   EXPECT_EQ(phantom.state().yaw_rate, 1.0);
 }
 
-TEST(Gimbal, RateCommandLapsesIntoHolding) {
+TEST(Gimbal, ALapsedRateCommandLeavesTheGimbalHoldingItsAngle) {
   Gimbal gimbal({});
   gimbal.step(rate(0.4, 0.0));
   gimbal.step({});
@@ -54,7 +54,7 @@ TEST(Gimbal, RateCommandLapsesIntoHolding) {
   EXPECT_NEAR(gimbal.state().pitch_rate, 0.0, 1e-12);
 }
 
-TEST(Gimbal, AngleIsReachedAndHeldWithoutFurtherCommands) {
+TEST(Gimbal, ACommandedAngleIsReachedAndHeldWithoutFurtherCommands) {
   Gimbal gimbal({});
   gimbal.step(angle(0.7, -1.2));
   for (int i = 0; i < 40; ++i) gimbal.step({});

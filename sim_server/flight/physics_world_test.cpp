@@ -49,7 +49,7 @@ VehicleConfig photographer() {
   return vehicle;
 }
 
-TEST(PhysicsWorld, FallsFreely) {
+TEST(PhysicsWorld, ABodyFallsFreely) {
   PhysicsWorld world({});
   world.add_uav({}, at(0, 0, 100));
   for (int i = 0; i < 400; ++i) world.tick();
@@ -72,7 +72,7 @@ TEST(PhysicsWorld, WrenchesAddUpAndLastOneTick) {
   EXPECT_NEAR(world.state(UavIndex{0}).v_WB.z(), -kWorldGravity * kTickS, 1e-12);
 }
 
-TEST(PhysicsWorld, SpinningBodyKeepsMomentumAndEnergy) {
+TEST(PhysicsWorld, ASpinningBodyKeepsMomentumAndEnergy) {
   const VehicleConfig vehicle = photographer();  // three different moments of inertia
   PhysicsWorld world({});
   world.add_uav(vehicle, at(0, 0, 1000));
@@ -93,7 +93,7 @@ TEST(PhysicsWorld, SpinningBodyKeepsMomentumAndEnergy) {
   EXPECT_NEAR(world.state(UavIndex{0}).q_WB.norm(), 1.0, 1e-9);
 }
 
-TEST(PhysicsWorld, RestsOnTheGroundWithoutCreeping) {
+TEST(PhysicsWorld, AUavRestsOnTheGroundWithoutCreeping) {
   for (const VehicleConfig& vehicle : {VehicleConfig{}, photographer()}) {
     PhysicsWorld world({});
     world.add_uav(vehicle, at(3, -2, rest_height(vehicle)));
@@ -113,7 +113,7 @@ TEST(PhysicsWorld, RestsOnTheGroundWithoutCreeping) {
   }
 }
 
-TEST(PhysicsWorld, ASleeperWakesWhenPushedOrHit) {
+TEST(PhysicsWorld, ASleepingUavWakesWhenPushedOrHit) {
   const VehicleConfig vehicle;
   PhysicsWorld world({});
   world.add_uav(vehicle, at(0, 0, rest_height(vehicle)));
@@ -137,7 +137,7 @@ TEST(PhysicsWorld, ASleeperWakesWhenPushedOrHit) {
   EXPECT_GT(fastest, 0.1);
 }
 
-TEST(PhysicsWorld, ReportsAWallAtEverySpeedAndFromBothSides) {
+TEST(PhysicsWorld, AContactWithAWallIsReportedAtEverySpeedAndFromBothSides) {
   const TriangleMesh mesh = wall(5.0F);
   for (const double speed : {0.05, 0.5, 2.0, 8.0, 12.0}) {
     for (const double side : {-1.0, 1.0}) {
@@ -160,7 +160,7 @@ TEST(PhysicsWorld, ReportsAWallAtEverySpeedAndFromBothSides) {
   }
 }
 
-TEST(PhysicsWorld, MissesNoTouchOnTheWay) {
+TEST(PhysicsWorld, TheWorldMissesNoTouchOnTheWay) {
   // The world searches for contacts only near the structure. Each triangle that a body overlaps at the beginning of a
   // tick must be a contact of that tick, also after tumbling through loose triangles, from far away, fast or slow.
   const TriangleMesh mesh = test::random_triangles(400, 11);
@@ -192,7 +192,7 @@ TEST(PhysicsWorld, MissesNoTouchOnTheWay) {
   EXPECT_GT(flights_that_touch, 8);
 }
 
-TEST(PhysicsWorld, AnticipatesNoContactBeyondTheSurface) {
+TEST(PhysicsWorld, AVehicleTouchesAWallOnlyWithinItsReach) {
   const VehicleConfig vehicle;
   const double reach = vehicle.arm_m * std::cos(M_PI / 6) + vehicle.rotor_radius_m;
   const TriangleMesh mesh = wall(5.0F);
@@ -252,7 +252,7 @@ TEST(PhysicsWorld, TwoUavsThatMeetAreOneContact) {
   EXPECT_NEAR(world.contacts()[0].p_W.x(), 0.6, 0.15);
 }
 
-TEST(PhysicsWorld, ContactEndsWhenUavMovesAway) {
+TEST(PhysicsWorld, AContactEndsWhenTheUavMovesAway) {
   const TriangleMesh mesh = wall(5.0F);
   PhysicsWorld world(mesh);
   world.add_uav({}, at(5, 0, 10));
@@ -263,7 +263,7 @@ TEST(PhysicsWorld, ContactEndsWhenUavMovesAway) {
   EXPECT_TRUE(world.contacts().empty());
 }
 
-/// Where a tumbling, colliding fleet ends up.
+/// The states of a tumbling, colliding fleet after 3 s.
 std::vector<RigidBodyState> chaos(std::size_t fleet) {
   const TriangleMesh mesh = wall(2.0F);
   PhysicsWorld world(mesh);
@@ -277,7 +277,7 @@ std::vector<RigidBodyState> chaos(std::size_t fleet) {
   return world.states();
 }
 
-TEST(PhysicsWorld, RepeatsBitForBit) {
+TEST(PhysicsWorld, ACollidingFleetRepeatsBitForBit) {
   const auto first = chaos(12);
   std::vector<std::unique_ptr<char[]>> noise;  // so that the second run allocates at other addresses
   for (std::size_t i = 1; i < 400; ++i) noise.push_back(std::make_unique<char[]>(37 * i % 5000 + 1));

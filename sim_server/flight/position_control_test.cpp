@@ -20,7 +20,7 @@ TrajectoryCommand go_to(const Vector3d& p_W) {
   return command;
 }
 
-TEST(PositionController, NoThrustBeforeTheFirstCommand) {
+TEST(PositionController, ThereIsNoThrustBeforeTheFirstCommand) {
   PositionController controller({});
   for (Tick age : {0, 20, 40, 400, 4000}) {
     EXPECT_EQ(controller.step(hovering({1, 2, 0.2}), {}, age).thrust_N, 0.0);
@@ -30,7 +30,7 @@ TEST(PositionController, NoThrustBeforeTheFirstCommand) {
   EXPECT_EQ(controller.memory().mode, ControlMode::moving);
 }
 
-TEST(PositionController, HoldsWhereTheCommandLapsed) {
+TEST(PositionController, TheUavHoldsThePositionAtWhichTheCommandLapsed) {
   PositionController controller({});
   controller.step(hovering({1, 2, 5}), go_to({9, 2, 5}), 0);
   controller.step(hovering({1.5, 2, 5}), {}, PositionController::kMaxAge);
@@ -63,7 +63,7 @@ TEST(PositionController, AStopIsPermanent) {
   EXPECT_EQ(demand.yaw_rate, 0.0);
 }
 
-TEST(PositionController, DemandStaysWithinLimits) {
+TEST(PositionController, TheDemandStaysWithinItsLimits) {
   PositionController controller({});
   for (int i = 0; i < 300; ++i) {
     RigidBodyState state = hovering({50.0 * std::sin(i), 50.0 * std::cos(2.0 * i), 20.0 + 15.0 * std::sin(3.0 * i)});

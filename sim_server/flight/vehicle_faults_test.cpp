@@ -1,4 +1,4 @@
-// Sensors, rotors and commands that fail: first the small parts, then a simulation that meets them.
+// Sensors, rotors and commands that fail: first the single functions, then whole simulations with such faults.
 #include "sim_server/flight/vehicle_faults.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ Fault fault(double at_s, std::optional<double> until_s, FaultAction action) {
 
 FaultPlan plan(std::vector<Fault> faults) { return {"test.yaml", "", "", std::move(faults)}; }
 
-TEST(VehicleConditions, LastAsLongAsTheirFaultAndAffectOnlyItsUav) {
+TEST(VehicleConditions, ConditionsLastAsLongAsTheirFaultAndAffectOnlyItsUav) {
   const FaultPlan faults = plan({fault(1.0, 2.0, LidarFailure{"a"}), fault(1.5, std::nullopt, CameraFailure{"b"}),
                                  fault(1.0, 2.0, MotorFailure{"b", 4, 0.25}), fault(1.0, 2.0, CommandDelay{"a", 3}),
                                  fault(0.0, std::nullopt, Blackout{"a"}), fault(0.0, std::nullopt, Kill{"b"})});
@@ -46,7 +46,7 @@ TEST(VehicleConditions, LastAsLongAsTheirFaultAndAffectOnlyItsUav) {
   EXPECT_TRUE(at(100.0)[0].camera_works);
 }
 
-TEST(VehicleConditions, DistinguishTwoEqualBatteryLossesWithoutAGap) {
+TEST(VehicleConditions, ConditionsDistinguishTwoEqualBatteryLossesWithoutAGap) {
   const FaultPlan faults = plan({fault(1.0, 2.0, BatteryLoss{"a", 0.3}), fault(2.0, 3.0, BatteryLoss{"a", 0.3})});
   const auto at = [&](double t) { return vehicle_conditions(faults, {"a", "b"}, ticks(t))[0]; };
   EXPECT_EQ(at(0.95).most_charge, 1.0);
@@ -57,7 +57,7 @@ TEST(VehicleConditions, DistinguishTwoEqualBatteryLossesWithoutAGap) {
   EXPECT_EQ(at(3.0).charge_lost, 0);
 }
 
-TEST(FaultTimeline, TellsEachBeginningAndEndOnce) {
+TEST(FaultTimeline, TheTimelineTellsEachBeginningAndEndOnce) {
   const FaultPlan faults = plan({fault(0.1, 0.2, LidarFailure{"a"}), fault(0.2, std::nullopt, CameraFailure{"b"}),
                                  fault(9.0, std::nullopt, Blackout{"a"})});
   FaultTimeline timeline(faults);
@@ -140,7 +140,7 @@ class Faulty : public testing::Test {
   std::unique_ptr<Simulation> simulation_;
 };
 
-TEST_F(Faulty, NoScansAndNoKeyFramesWithoutLidar) {
+TEST_F(Faulty, AUavWhoseLidarFailsMakesNoScansAndNoKeyFrames) {
   int before = 0, within = 0, after = 0;
   fly(plan({fault(10.0, 15.0, LidarFailure{"lead"})}), 25.0, [&](double t) {
     const StepEvents& events = simulation_->events();
@@ -152,7 +152,7 @@ TEST_F(Faulty, NoScansAndNoKeyFramesWithoutLidar) {
   EXPECT_GT(after, 90);
 }
 
-TEST_F(Faulty, NoCapturesWithoutCamera) {
+TEST_F(Faulty, AUavWhoseCameraFailsMakesNoCaptures) {
   std::array<std::array<int, 3>, 2> captures{};
   fly(plan({fault(10.0, 15.0, CameraFailure{"other"})}), 25.0, [&](double t) {
     for (const CaptureEvent& event : simulation_->events().captures) {

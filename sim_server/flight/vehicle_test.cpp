@@ -67,14 +67,14 @@ TEST_P(VehicleKinds, DragOpposesMotionAcrossTheRotorsOnly) {
   EXPECT_NEAR(rotors.wrench({.v_WB = {0, 0, 4}}).force_B.z(), still.force_B.z(), 1e-9);
 }
 
-TEST_P(VehicleKinds, RestsUntilTheFirstCommand) {
+TEST_P(VehicleKinds, AVehicleRestsUntilTheFirstCommand) {
   Flight flight(config_, rest_height(config_));
   flight.fly(5.0, silent);
   EXPECT_EQ(flight.vehicle().mode(), ControlMode::idle);
   EXPECT_LT((flight.state().p_WB - Vector3d(0, 0, rest_height(config_))).norm(), 1e-3);
 }
 
-TEST_P(VehicleKinds, TurnsToTheCommandedYaw) {
+TEST_P(VehicleKinds, AVehicleTurnsToTheCommandedYaw) {
   Flight flight(config_);
   double fastest = 0.0;
   flight.fly(15.0, hover_at({1, 0, 50}, 2.0), [&] { fastest = std::max(fastest, flight.state().w_WB_B.z()); });
@@ -82,7 +82,7 @@ TEST_P(VehicleKinds, TurnsToTheCommandedYaw) {
   EXPECT_LT(fastest, 1.1 * M_PI / 2);
 }
 
-TEST_P(VehicleKinds, HoldsWhereACommandLapsed) {
+TEST_P(VehicleKinds, AVehicleHoldsNearThePlaceWhereACommandLapsed) {
   Flight flight(config_);
   flight.fly(3.0, [](double) { return TrajectoryCommand{.v_WB = {2, 0, 0}}; });
   EXPECT_NEAR(flight.state().v_WB.x(), 2.0, 0.25);
@@ -94,7 +94,7 @@ TEST_P(VehicleKinds, HoldsWhereACommandLapsed) {
   EXPECT_NEAR(flight.state().p_WB.x(), x, 1.0);
 }
 
-TEST_P(VehicleKinds, FarPositionIsReachedWithinTheLimits) {
+TEST_P(VehicleKinds, AFarPositionIsReachedWithinTheLimits) {
   for (const Vector3d& way : {Vector3d(80, 0, 0), Vector3d(-30, 40, 20), Vector3d(0, 0, 45), Vector3d(2, 1, 0)}) {
     Flight flight(config_);
     flight.fly(3.0, hover_at({1, 0, 50}));
@@ -113,7 +113,7 @@ TEST_P(VehicleKinds, FarPositionIsReachedWithinTheLimits) {
   }
 }
 
-TEST_P(VehicleKinds, FollowsAFullTrajectoryClosely) {
+TEST_P(VehicleKinds, AVehicleFollowsAFullTrajectoryClosely) {
   // A circle of 10 m at 4 m/s with all derivatives given, as a good planner flies.
   Flight flight(config_);
   const double radius = 10.0, rate = 0.4;
@@ -136,7 +136,8 @@ TEST_P(VehicleKinds, FollowsAFullTrajectoryClosely) {
 
 INSTANTIATE_TEST_SUITE_P(Both, VehicleKinds, testing::Values("explorer", "photographer"));
 
-TEST(Vehicle, SpeedOfATick) {
+/// Prints the CPU time of a tick.
+TEST(Vehicle, AVehicleHoldsItsHeightFor100Seconds) {
   PhysicsWorld world({});
   const VehicleConfig config = vehicle_named("explorer");
   std::vector<Vehicle> vehicles;

@@ -1,4 +1,4 @@
-// Braking trajectories, and distances between them, against closed forms and against many samples.
+// Compares braking trajectories, and distances between them, with closed forms and with many samples.
 #include "sim_server/flight_check/braking.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Braking drawn_braking(RandomStream& random) {
           .deceleration_mps2 = random.uniform(1.0, 6.0)};
 }
 
-TEST(Braking, FliesOnThenStopsAfterVSquaredByTwoA) {
+TEST(Braking, ABodyFliesOnForTheDelayAndThenStopsAfterVSquaredByTwoA) {
   RandomStream random(1, "braking", 0);
   for (int i = 0; i < 200; ++i) {
     const Braking braking = drawn_braking(random);
@@ -65,7 +65,7 @@ TEST(Braking, SegmentsAreAsFarApartAsTheirNearestPoints) {
   }
 }
 
-TEST(Braking, TwoHeadOnComeNearerByTheSumOfTheirWays) {
+TEST(Braking, TwoHeadOnBodiesApproachByTheSumOfTheirBrakingDistances) {
   RandomStream random(3, "head_on", 0);
   for (int i = 0; i < 100; ++i) {
     Braking a = drawn_braking(random), b = drawn_braking(random);
@@ -78,7 +78,7 @@ TEST(Braking, TwoHeadOnComeNearerByTheSumOfTheirWays) {
   }
 }
 
-TEST(Braking, TheLeastDistanceOfTwoThatBrakeAgreesWithSamples) {
+TEST(Braking, TheLeastDistanceOfTwoBrakingBodiesAgreesWithSamples) {
   RandomStream random(4, "pairs", 0);
   int near = 0;
   for (int i = 0; i < 300; ++i) {
@@ -95,7 +95,7 @@ TEST(Braking, TheLeastDistanceOfTwoThatBrakeAgreesWithSamples) {
     const Least asked = least_distance(a, b, most, kTolerance);
     EXPECT_NEAR(asked.value, std::min(most, least), kTolerance + 0.01) << i;
     near += least < most;
-    // In time they are never nearer than their ways are.
+    // At the same time, the bodies are never nearer to each other than their paths are.
     EXPECT_GE(found.value, distance_of_segments(a.p_W, a.end_W(), b.p_W, b.end_W()) - 1e-9) << i;
   }
   EXPECT_GT(near, 30);
