@@ -1,4 +1,4 @@
-// The flight check compared with closed forms, and with two pilots, of whom one flies so that it can stop.
+// The flight check compared with closed forms, and applied to flights of which some could always stop.
 #include "sim_server/flight_check/flight_check.hpp"
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ RayScene wall_from_x_0() {
   return RayScene(mesh);
 }
 
-TEST(FlightCheck, FindsASphereThatCannotStopBeforeAWall) {
+TEST(FlightCheck, TheCheckFindsASphereThatCannotStopBeforeAWall) {
   const Scenario scenario = fleet_of({"explorer"});
   const VehicleConfig& vehicle = scenario.fleet[0].vehicle;
   const RayScene wall = wall_from_x_0();
@@ -81,7 +81,7 @@ TEST(FlightCheck, FindsASphereThatCannotStopBeforeAWall) {
   EXPECT_GT(free, 30);
 }
 
-TEST(FlightCheck, FindsAThinPoleThatIsTooCloseToTheWay) {
+TEST(FlightCheck, TheCheckFindsAThinPoleThatIsTooCloseToTheBrakingPath) {
   const Scenario scenario = fleet_of({"photographer"});
   const VehicleConfig& vehicle = scenario.fleet[0].vehicle;
   TriangleMesh mesh;
@@ -103,7 +103,7 @@ TEST(FlightCheck, FindsAThinPoleThatIsTooCloseToTheWay) {
   }
 }
 
-TEST(FlightCheck, FindsTwoThatFlyHeadOnAndCannotStop) {
+TEST(FlightCheck, TheCheckFindsTwoUavsThatFlyHeadOnAndCannotStop) {
   const Scenario scenario = fleet_of({"explorer", "photographer"});
   const RayScene nothing{TriangleMesh{}};
   const double radii = body_sphere_m(scenario.fleet[0].vehicle) + body_sphere_m(scenario.fleet[1].vehicle);
@@ -125,7 +125,7 @@ TEST(FlightCheck, FindsTwoThatFlyHeadOnAndCannotStop) {
   }
 }
 
-TEST(FlightCheck, WaysMayMeetWhereTheBodiesNeverDo) {
+TEST(FlightCheck, BrakingPathsMayMeetAlthoughTheBodiesNeverDo) {
   const Scenario scenario = fleet_of({"photographer", "photographer"});
   const RayScene nothing{TriangleMesh{}};
   // One UAV flies ahead of the other, and both brake alike: the second one passes the present place of the first one.
@@ -135,7 +135,7 @@ TEST(FlightCheck, WaysMayMeetWhereTheBodiesNeverDo) {
   EXPECT_NEAR(found.least_braking_separation_m, found.least_separation_m, 1e-9);
 }
 
-TEST(FlightCheck, AUavThatCatchesUpAfterTakeOffDoesNotTrackYet) {
+TEST(FlightCheck, TrackingIsNotMeasuredWhileAUavCatchesUpAfterTakeoff) {
   const Scenario scenario = fleet_of({"explorer"});
   const RayScene nothing{TriangleMesh{}};
   FlightCheck check(scenario);
@@ -201,7 +201,7 @@ Pilot line_flight(const Vector3d& start_W, const Vector3d& direction_W, double e
   };
 }
 
-/// Flies them in the real simulation. @returns what the check says.
+/// Flies the pilots' setpoints in the simulation. @returns the report of the check.
 FlightCheckReport flown(const Scenario& scenario, const TriangleMesh& mesh, const std::vector<Pilot>& pilots,
                         double duration_s, bool& collided) {
   Scene scene;
@@ -218,13 +218,13 @@ FlightCheckReport flown(const Scenario& scenario, const TriangleMesh& mesh, cons
   return review.report();
 }
 
-TEST(FlightCheck, FindsAUavThatFliesFastAtAWallAndStopsLate) {
+TEST(FlightCheck, TheCheckFindsAUavThatFliesFastAtAWallAndStopsLate) {
   const Scenario scenario = fleet_of({"explorer"});
   TriangleMesh wall;
   test::add_box(wall, {30.5, 0, 10}, {1, 40, 20});
   bool collided = false;
   const Vector3d start(0, 0, 0);
-  // Both stand 1.5 m before the wall in the end, and none touches it.
+  // The flights `late` and `honest` both end 1.5 m before the wall, and neither UAV touches it.
   const auto late = flown(scenario, wall, {line_flight(start, {1, 0, 0}, 28.5, 5.0, 3.9)}, 24.0, collided);
   ASSERT_FALSE(collided);
   EXPECT_GT(*late.braking_hits, 0U);
@@ -236,7 +236,7 @@ TEST(FlightCheck, FindsAUavThatFliesFastAtAWallAndStopsLate) {
   EXPECT_GT(*late.first[0].time_s, 8.0);
   EXPECT_GT((*late.first[0].position)[0], 28.0);
 
-  // A UAV that hits it could not have stopped before.
+  // A UAV that hits the wall could not have stopped before.
   const auto hit = flown(scenario, wall, {line_flight(start, {1, 0, 0}, 40.0, 4.0, 2.0)}, 24.0, collided);
   ASSERT_TRUE(collided);
   EXPECT_GT(*hit.braking_hits, 0U);
@@ -251,7 +251,7 @@ TEST(FlightCheck, FindsAUavThatFliesFastAtAWallAndStopsLate) {
   EXPECT_LT(*honest.tracking_error_m.p50, 0.3);
 }
 
-TEST(FlightCheck, FindsTwoThatPassNearerThanTheyCouldBrake) {
+TEST(FlightCheck, TheCheckFindsTwoUavsThatPassTooCloseToBrake) {
   // Their lines cross at a right angle. The fast one is there after 20 m of its way, the slow one `apart_s` before it.
   constexpr double kFast = 6.0, kSlow = 3.0, kAcceleration = 1.5;
   const auto fly = [&](double apart_s, bool& collided) {

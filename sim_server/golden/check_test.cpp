@@ -77,7 +77,7 @@ std::string reversed(const std::string& line) {
   return result;
 }
 
-TEST_F(GoldenFile, AcceptsOtherFormsOfTheSameTable) {
+TEST_F(GoldenFile, TheReaderAcceptsOtherFormsOfTheSameTable) {
   const std::string header(kAttitudeHeader, sizeof(kAttitudeHeader) - 2);  // without the end of line
   const std::string row = "1,explorer,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0";
   const std::string e_row = "1,explorer,+0,0e0,0E+00,0.0,1e0,-0,1e-400,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0";

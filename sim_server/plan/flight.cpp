@@ -10,7 +10,8 @@
 namespace skein::sim {
 namespace {
 
-constexpr double kFlownLonger_s = 5.0;  ///< than the mission's time, because the clock starts after the first command
+/// The simulation goes on for this long after the mission's time, because the clock starts after the first command.
+constexpr double kFlownLonger_s = 5.0;
 /// Exchanges for which a link must last until a report counts as delivered: report, judgement, and acknowledgement.
 constexpr int kLinkedSteps = 4;
 constexpr double kBodyTurn = 30.0 * kRadPerDeg;  ///< yaw rate of the body; the gimbal turns in addition [rad/s]

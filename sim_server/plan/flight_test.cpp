@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-TEST(PlanFlown, ScoresAsPlannedAtASmallSite) {
+TEST(PlanFlown, APlanForASmallSiteScoresAsPlanned) {
   const test::PlanSite site(3, 60.0);
   const Plan plan = make_plan(site.scenario, site.scene, site.config);
   const PlanFlight flown = fly_plan(site.scenario, site.scene, site.config, plan);
@@ -22,7 +22,7 @@ TEST(PlanFlown, ScoresAsPlannedAtASmallSite) {
 }
 
 /// Only a third of the mission, so that search and flight take less time.
-TEST(PlanFlown, ScoresAsPlannedAtTheTowers) {
+TEST(PlanFlown, APlanForTheTowersScoresAsPlanned) {
   Scenario scenario = load_scenario(source_path("config/scenarios/towers.yaml"));
   scenario.duration_s = 200.0;
   const Scene scene = load_scene(scenario);

@@ -54,7 +54,8 @@ void add_numbers(Sha256& hash, std::initializer_list<double> values) {
   for (const double value : values) hash.add(value);
 }
 
-/// Adds how the vehicle flies: oracle_key() does not cover this, because the oracle's answer does not depend on it.
+/// Adds the vehicle's flight parameters, which oracle_key() leaves out because the oracle's answer does not depend on
+/// them.
 void add_vehicle(Sha256& hash, const VehicleConfig& vehicle) {
   const PositionControlConfig& law = vehicle.position_control;
   const AttitudeControlConfig& attitude = vehicle.attitude_control;

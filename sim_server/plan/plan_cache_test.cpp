@@ -36,7 +36,7 @@ class PlanCache : public ::testing::Test {
   test::PlanSite site_;
 };
 
-TEST_F(PlanCache, FindsAPlanOnlyAfterItWasSearchedFor) {
+TEST_F(PlanCache, TheCacheHasAPlanOnlyAfterASearch) {
   EXPECT_FALSE(ask(false).plan);
   const PlanReply first = ask(true), second = ask(false);
   ASSERT_TRUE(first.plan && second.plan);

@@ -52,21 +52,21 @@ std::vector<float> pictures_of(const test::PlanSite& site, const Plan& plan) {
   return best;
 }
 
-TEST(Plan, ItsScoreIsThatOfTheProductionCameraAtItsPictures) {
+TEST(Plan, ThePlansScoreIsThatOfTheProductionCameraAtItsPictures) {
   double sum = 0.0;
   for (const float q : pictures_of(common_site(), common_plan())) sum += q;
   EXPECT_NEAR(common_plan().score, sum, 1e-3);
   EXPECT_GT(common_plan().score, 0.5 * static_cast<double>(common_site().scene.points.size()));
 }
 
-TEST(Plan, ItIsNeverAboveTheEstimate) {
+TEST(Plan, ThePlansScoreIsNeverAboveTheEstimate) {
   const test::PlanSite& site = common_site();
   const OracleReport report = consult_oracle(site.scenario, site.scene, {0.5, 2.5, 64, 1});
   EXPECT_LE(common_plan().score, report.reachable.attainable.score);
   EXPECT_LE(common_plan().points, report.reachable.attainable.points);
 }
 
-TEST(Plan, MoreTimeIsNoWorse) {
+TEST(Plan, MoreTimeGivesNoWorsePlan) {
   double before = 0.0;
   for (const double duration_s : {15.0, 30.0, 60.0, 120.0}) {
     const double score = plan_of(test::PlanSite(2, duration_s)).score;
@@ -75,7 +75,7 @@ TEST(Plan, MoreTimeIsNoWorse) {
   }
 }
 
-TEST(Plan, MoreUavsAreNoWorse) {
+TEST(Plan, MoreUavsGiveNoWorsePlan) {
   double before = 0.0;
   for (const std::size_t uavs : {1u, 2u, 3u, 4u}) {
     const double score = plan_of(test::PlanSite(uavs, 45.0)).score;
@@ -170,7 +170,7 @@ TEST(Plan, AUavBelowALidStaysOnTheGround) {
   EXPECT_GT(plan.uavs[1].views, 0u);
 }
 
-TEST(Plan, WithoutPointsThereIsNothingToDo) {
+TEST(Plan, WithoutPointsThePlanIsEmpty) {
   test::PlanSite site(1, 30.0);
   site.scene.points.clear();
   const Plan plan = plan_of(site);

@@ -56,7 +56,7 @@ class Schedule {
   const std::vector<View>& views_;
   double settle_s_, end_s_;
   std::vector<std::vector<PlanMove>> earlier_;  ///< moves of the UAVs that were added
-  std::vector<Vector3d> grounds_;               ///< by UAV: where it stands on the ground without moves
+  std::vector<Vector3d> grounds_;               ///< by UAV: its place on the ground before its first move
 };
 
 }  // namespace skein::sim

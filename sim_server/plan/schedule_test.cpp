@@ -1,4 +1,4 @@
-// UAVs whose ways cross keep apart: the second one waits.
+// UAVs whose paths cross keep apart: the second UAV waits.
 #include "sim_server/plan/schedule.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace skein::sim {
 namespace {
 
-TEST(PlanSchedule, TheSecondWaitsWhereWaysCross) {
+TEST(PlanSchedule, TheSecondUavWaitsIfItsPathCrossesThatOfTheFirst) {
   test::PlanSite site(3, 60.0);
   const Team team(site.scenario, site.config);
   // The photographers start at y = -2 and y = 2 and go to each other's side.

@@ -60,7 +60,7 @@ TEST_F(WaysAroundWalls, EveryLegKeepsTheClearance) {
   EXPECT_GT(detours, 100);
 }
 
-TEST_F(WaysAroundWalls, ClearIsWhatKeepsTheClearance) {
+TEST_F(WaysAroundWalls, ALineIsClearIfItKeepsTheClearance) {
   RandomStream random(2, "ways_test", std::uint64_t{0});
   int clear = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -76,7 +76,7 @@ TEST_F(WaysAroundWalls, ClearIsWhatKeepsTheClearance) {
   EXPECT_LT(clear, 900);
 }
 
-TEST_F(WaysAroundWalls, NoneLeadsIntoAClosedRoom) { EXPECT_TRUE(way({-5.0, 0.0, 6.0}, {12.0, 0.0, 6.0}).empty()); }
+TEST_F(WaysAroundWalls, NoPathLeadsIntoAClosedRoom) { EXPECT_TRUE(way({-5.0, 0.0, 6.0}, {12.0, 0.0, 6.0}).empty()); }
 
 }  // namespace
 }  // namespace skein::sim

@@ -36,7 +36,7 @@ class ActivityLogTest : public testing::Test {
   Scenario scenario_;
 };
 
-TEST_F(ActivityLogTest, HasALineForEachNewActivityAndIgnoresChangedNumbers) {
+TEST_F(ActivityLogTest, TheLogHasALineForEachNewActivityAndIgnoresChangedNumbers) {
   constexpr UavIndex kJurong{0}, kChangi{1};
   Simulation simulation(scenario_, {}, 0);
   const std::string head = "step,time_s,uav,mode,goal_x,goal_y,goal_z,waits_for,no_way\n";

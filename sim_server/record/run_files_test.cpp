@@ -40,14 +40,14 @@ class RunFilesTest : public testing::Test {
       .tick = 400, .uav = UavIndex{0}, .with = {BodyId::Kind::uav, UavIndex{1}}, .p_W = {1, 2, 3}};
 };
 
-TEST_F(RunFilesTest, ALineTellsPairTimeAndPlace) {
+TEST_F(RunFilesTest, TheLogLineOfACollisionHasPairTimeAndPlace) {
   EXPECT_EQ(describe(with_structure_, scenario_),
             "changi collided with structure at 12.3025 s, at (1.50, -2.00, 7.00): it is out");
   EXPECT_EQ(describe(with_uav_, scenario_),
             "jurong collided with changi at 1.0000 s, at (1.00, 2.00, 3.00): it is out");
 }
 
-TEST_F(RunFilesTest, TheReportTellsPairTimeAndPlace) {
+TEST_F(RunFilesTest, TheReportHasPairTimeAndPlaceOfEachCollision) {
   const std::filesystem::path& folder = folder_;
   const Simulation simulation(scenario_, {}, 0);
   RunDigest digest(scenario_.uav_names());
@@ -63,7 +63,7 @@ TEST_F(RunFilesTest, TheReportTellsPairTimeAndPlace) {
   EXPECT_EQ(report.value("unwritten", nlohmann::json::array()), nlohmann::json::array());
 }
 
-TEST_F(RunFilesTest, APoseEveryTenthOfASecondAndADigestEveryExchange) {
+TEST_F(RunFilesTest, TheFilesHaveAPoseEveryTenthOfASecondAndADigestEveryExchange) {
   Simulation simulation(scenario_, {}, 0);
   RunDigest digest(scenario_.uav_names());
   RunFiles files(folder_, scenario_, digest);

@@ -37,7 +37,7 @@ TEST(AntennaLink, AWallBlocksTheLinkAndTheRangeIsStillKnown) {
   EXPECT_EQ(link.range, 20.0);
 }
 
-TEST(AntennaLink, WhetherAWallRightBeforeOneEndBlocksDependsOnTheOrderOfTheNodes) {
+TEST(AntennaLink, AWallRightBeforeOneEndBlocksTheLinkInOneOrderOfTheNodesOnly) {
   const auto wall = wall_at(19.85);
   EXPECT_TRUE(trace_link(kLeftNode, kRightNode, wall).linked);
   EXPECT_FALSE(trace_link(kRightNode, kLeftNode, wall).linked);
@@ -75,8 +75,8 @@ TEST(AntennaLink, OnlyTheLowestAntennaIsKeptAboveGround) {
   EXPECT_DOUBLE_EQ(points[4].z(), 0.25);
 }
 
-/// Two nodes that fly through clutter, and one that jumps about: with SightMemory, all answers are as without it.
-TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
+/// One node stays at its place; the other flies through clutter, and jumps to another place now and then.
+TEST(AntennaLink, SightMemoryGivesTheSameAnswersAsRaysAlone) {
   RandomStream random(1, "antenna_link_test", 0, 0);
   int linked = 0, blocked = 0;
   for (const std::size_t triangles : {40U, 150U}) {
@@ -102,8 +102,8 @@ TEST(AntennaLink, SightMemoryAnswersAsRaysAlone) {
   EXPECT_GT(blocked, 500);
 }
 
-/// A crowd among walls, from the ground up. It is enough to test the bodies near a line of sight.
-TEST(AntennaLink, InACrowdLinksAreAsIfAllBodiesWereTested) {
+/// Many UAVs among triangles, from the ground up. Only bodies near a line of sight are tested.
+TEST(AntennaLink, AmongManyUavsLinksAreAsIfAllBodiesWereTested) {
   RandomStream random(2, "antenna_link_test", 0, 0);
   constexpr std::size_t kCrowd = 70;
   RayScene world(test::random_triangles(30, 1), std::vector<BodyShape>(kCrowd, body_shape(VehicleConfig{})));

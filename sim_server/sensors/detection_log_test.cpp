@@ -38,7 +38,7 @@ class RandomCamera {
   std::vector<float> best_;
 };
 
-TEST(DetectionLog, KeepsTheOrderOfDetectionAndTheBestScore) {
+TEST(DetectionLog, TheLogKeepsTheOrderOfDetectionAndTheBestScore) {
   RandomCamera camera(1);
   DetectionLog log;
   std::vector<std::uint32_t> first_seen;
@@ -61,7 +61,7 @@ TEST(DetectionLog, KeepsTheOrderOfDetectionAndTheBestScore) {
   EXPECT_GT(first_seen.size(), kPoints / 2);
 }
 
-TEST(DetectionLog, HandsOutEachDetectionOnce) {
+TEST(DetectionLog, TheLogHandsOutEachDetectionOnce) {
   RandomCamera camera(2);
   DetectionLog log;
   EXPECT_TRUE(log.take_seen().empty());
@@ -80,7 +80,7 @@ TEST(DetectionLog, HandsOutEachDetectionOnce) {
   }
 }
 
-TEST(DetectionLog, ReportsNameNoPointOfTheScene) {
+TEST(DetectionLog, ReportsHaveTheUavsNumbersOfPointsNotTheScenesIndices) {
   RandomCamera camera(3);
   DetectionLog log;
   Referee referee(0, 1, kPoints, RulesConfig{});

@@ -1,4 +1,4 @@
-// Which scans become key frames, and how their clouds are thinned out.
+// Tests which scans become key frames, and how their clouds are thinned out.
 #include "sim_server/sensors/key_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -43,9 +43,9 @@ void expect_kept(const char* what, const std::vector<Offer>& offers) {
   }
 }
 
-TEST(Keyframes, TheFirstScanIsAlwaysOne) { expect_kept("first", {{0.0, 0.0, 0.0, true}}); }
+TEST(Keyframes, TheFirstScanIsAlwaysAKeyFrame) { expect_kept("first", {{0.0, 0.0, 0.0, true}}); }
 
-TEST(Keyframes, AScanMoreThanASecondLaterAndAwayFromOthersIsOne) {
+TEST(Keyframes, AScanMoreThanASecondLaterAndAwayFromOthersIsAKeyFrame) {
   expect_kept("more than a second", {{0.0, 0.0, 0.0, true},
                                      {0.5, 9.0, 0.0, false},
                                      {1.0, 9.0, 0.0, false},  // exactly one second is not more
@@ -54,7 +54,7 @@ TEST(Keyframes, AScanMoreThanASecondLaterAndAwayFromOthersIsOne) {
                                      {2.2, 20.0, 0.0, true}});
 }
 
-TEST(Keyframes, AScanMoreThanTwoMetresFromAllOthersIsOne) {
+TEST(Keyframes, AScanMoreThanTwoMetresFromAllOthersIsAKeyFrame) {
   expect_kept("more than two metres from the nearest", {{0.0, 0.0, 0.0, true},
                                                         {2.0, 1.9, 0.0, false},
                                                         {4.0, 2.0, 0.0, false},  // exactly two metres is not more
@@ -64,7 +64,7 @@ TEST(Keyframes, AScanMoreThanTwoMetresFromAllOthersIsOne) {
                                                         {12.0, 4.2, 0.0, true}});
 }
 
-TEST(Keyframes, AScanTurnedFromAllItsNeighboursIsOne) {
+TEST(Keyframes, AScanTurnedFromAllItsNeighboursIsAKeyFrame) {
   expect_kept("ten degrees from all, across the turn too",
               {{0.0, 0.0, 175.0, true},
                {2.0, 0.0, -176.0, false},  // nine degrees
@@ -85,7 +85,7 @@ TEST(Keyframes, OnlyTheFiveNearestCountForYaw) {
                                      {14.0, 2.0, 0.0, true}});
 }
 
-TEST(UniformSampling, KeepsTheNearestToEachCentre) {
+TEST(UniformSampling, ThePointNearestToEachCellsCentreStays) {
   RandomStream random(1, "keyframes_test", 0, 0);
   std::vector<Eigen::Vector3f> cloud;
   for (int i = 0; i < 4000; ++i) {

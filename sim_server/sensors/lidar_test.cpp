@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kDeg = kRadPerDeg;
 
-TEST(ServoAngle, IsAsInTheReference) {
+TEST(ServoAngle, TheServoAngleIsThatOfTheReference) {
   const LidarConfig config;
   struct Case {
     double t_s, angle_deg;
@@ -46,7 +46,7 @@ TEST(ServoAngle, IsAsInTheReference) {
 }
 
 /// Compares the closed form with a servo that moves tick by tick. The servo reaches both stops, one, or none.
-TEST(ServoAngle, EqualsAServoThatMovesTickByTick) {
+TEST(ServoAngle, TheServoAngleIsThatOfAServoThatMovesTickByTick) {
   for (const double limit_deg : {30.0, 60.0, 90.0, 120.0, 200.0}) {
     for (const double rate_deg_s : {10.0, 30.0, 45.0}) {
       LidarConfig config;
@@ -64,7 +64,7 @@ TEST(ServoAngle, EqualsAServoThatMovesTickByTick) {
 }
 
 /// servo_rate() is the slope of servo_angle() just after a time.
-TEST(ServoAngle, HasTheRateOfServoRate) {
+TEST(ServoAngle, TheServoAngleChangesAtTheStatedRate) {
   for (const double limit_deg : {30.0, 60.0, 90.0, 120.0}) {
     LidarConfig config;
     config.servo_limit_deg = limit_deg;
@@ -79,7 +79,7 @@ TEST(ServoAngle, HasTheRateOfServoRate) {
   }
 }
 
-TEST(Lidar, IsDueTenTimesASecond) {
+TEST(Lidar, AScanIsDueTenTimesASecond) {
   const Lidar lidar(LidarConfig{}, UavIndex{0}, 0);
   int scans = 0;
   for (Tick tick = 0; tick < 10 * kTicksPerSecond; ++tick) {
@@ -152,7 +152,7 @@ TEST_F(LidarRoom, MotionDistortionDoesNotChangeTheScanOfABodyAtRest) {
   EXPECT_EQ(sweeping.scan(80, X_WB_, world).points_W, instant.scan(80, X_WB_, world).points_W);
 }
 
-TEST_F(LidarRoom, MotionDuringAScanDistortsAsGeometrySays) {
+TEST_F(LidarRoom, MotionDuringAScanDistortsThePointsAsGeometryRequires) {
   const RayScene world = room();
   LidarConfig config;
   config.motion_distortion = true;
@@ -206,7 +206,7 @@ TEST_F(LidarRoom, RangeLimitsLeavePointsOut) {
   EXPECT_EQ(scan.points_W, expected);
 }
 
-TEST_F(LidarRoom, SeesOthersButNotItself) {
+TEST_F(LidarRoom, TheLidarSeesOtherUavsButNotItsOwnBody) {
   RayScene world = room();
   Lidar alone(LidarConfig{}, UavIndex{0}, 0), lidar(LidarConfig{}, UavIndex{0}, 0);
   const auto without = alone.scan(0, X_WB_, world);
@@ -277,7 +277,7 @@ TEST_F(LidarRoom, LostReturnsAreNoPointsAndTheOthersStayTheSame) {
   }
 }
 
-TEST_F(LidarRoom, LosesNothingWithSeedZeroNorWithAShareOfZero) {
+TEST_F(LidarRoom, NoReturnIsLostWithSeedZeroOrWithAShareOfZero) {
   const RayScene world = room();
   LidarConfig losing, nothing;
   losing.no_return_p = 0.5;
@@ -290,7 +290,7 @@ TEST_F(LidarRoom, LosesNothingWithSeedZeroNorWithAShareOfZero) {
 }
 
 /// The walls of the narrow room are partly nearer than 0.9 m, those of the wide room partly farther than 50 m.
-TEST(Lidar, SeesFromNinetyCentimetresToFiftyMetres) {
+TEST(Lidar, TheLidarSeesFromNinetyCentimetresToFiftyMetres) {
   const auto farthest_and_nearest = [](double half_size) {
     TriangleMesh mesh;
     test::add_box(mesh, {0.0, 0.0, 200.0 + 0.2 + 0.00185}, Vector3d::Constant(2.0 * half_size));
@@ -314,7 +314,7 @@ TEST(Lidar, SeesFromNinetyCentimetresToFiftyMetres) {
   EXPECT_NEAR(near_in_wide, 48.0, 0.05);
 }
 
-TEST_F(LidarRoom, NoiseFollowsSigma) {
+TEST_F(LidarRoom, TheNoiseHasTheConfiguredDeviation) {
   const RayScene world = room();
   LidarConfig config;
   config.servo_rate_deg_s = 0.0;
@@ -331,7 +331,7 @@ TEST_F(LidarRoom, NoiseFollowsSigma) {
   }
 }
 
-TEST(Lidar, SeedDrawsThePhaseOnce) {
+TEST(Lidar, TheSeedDrawsThePhaseOfTheServoOnce) {
   const RayScene world(TriangleMesh{});
   const auto angle_at_start = [&world](UavIndex uav, std::uint64_t seed) {
     return Lidar(LidarConfig{}, uav, seed).scan(0, Isometry3d::Identity(), world).servo_angle;
@@ -343,7 +343,7 @@ TEST(Lidar, SeedDrawsThePhaseOnce) {
 }
 
 /// Prints the CPU time of a scan during a flight around the structure, but sets no limit for it.
-TEST(Lidar, MeasureScanOnMbs) {
+TEST(Lidar, AScanOfMbsHasPoints) {
   const auto mesh = test::official_mesh("mbs/mbs.stl");
   if (!mesh) {
     GTEST_SKIP() << "SKEIN_ASSETS is not set";

@@ -28,7 +28,7 @@ std::vector<bool> first_ring(const LidarConfig& config, const std::vector<bool>&
   return {lost.begin(), lost.begin() + config.columns};
 }
 
-TEST(LostReturns, ThereAreNoneByDefaultNorWithSeedZero) {
+TEST(LostReturns, NoReturnIsLostByDefaultOrWithSeedZero) {
   LidarConfig both = with_sectors({.share = 0.5, .width_deg = 20.0, .hold_s = 1.0});
   both.no_return_p = 0.5;
   for (LostReturns lost : {LostReturns(LidarConfig{}, kUav, 7), LostReturns(both, kUav, 0)}) {
@@ -68,7 +68,7 @@ TEST(LostReturns, EachBeamIsLostIndependently) {
   }
 }
 
-TEST(LostReturns, DependOnSeedUavAndScanAlone) {
+TEST(LostReturns, LostReturnsDependOnSeedUavAndScanAlone) {
   LidarConfig config = with_sectors({.share = 0.3, .width_deg = 20.0, .hold_s = 0.1});
   config.no_return_p = 0.3;
   for (const double p : {0.0, 0.3}) {  // only sectors, and sectors with single beams
@@ -145,7 +145,7 @@ TEST(LostReturns, SectorsStayForTheirTime) {
   EXPECT_EQ(all.size(), kHolds);
 }
 
-TEST(LostReturns, BothKindsTogetherLoseTheUnionOfWhatEachLoses) {
+TEST(LostReturns, BothKindsTogetherLoseTheUnionOfTheirLosses) {
   LidarConfig beams, both = with_sectors({.share = 0.3, .width_deg = 20.0, .hold_s = 1.0});
   const LidarConfig sectors = both;
   beams.no_return_p = both.no_return_p = 0.3;

@@ -2,7 +2,7 @@
 // base_link is the body (FLU). The frames gimbal and camera have their origin at the camera; x is the direction of
 // view, y points left, z up (core/scoring/camera_quality.hpp). Pure.
 //
-// In its own domain a UAV has frames that contain only what it is told: world -> <uav>/odom -> <uav>/base_link ->
+// In its own domain a UAV has frames with only the poses that it is told: world -> <uav>/odom -> <uav>/base_link ->
 // <uav>/gimbal -> <uav>/camera, and <uav>/base_link -> <uav>/lidar. The names are those of ROS's REP 105, with `world`
 // instead of `map`. odom coincides with world, because a UAV knows its position only by its odometry.
 #pragma once

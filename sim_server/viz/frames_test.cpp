@@ -40,7 +40,7 @@ class Tree {
   std::map<std::string, std::pair<std::string, Isometry3d>> edges_;
 };
 
-TEST(Frames, ComposeToThePoseOfTheCamera) {
+TEST(Frames, TheFramesComposeToThePoseOfTheCamera) {
   Scenario scenario;
   scenario.fleet.resize(3);
   RandomStream random(1, "frames", 0);
@@ -72,7 +72,7 @@ TEST(Frames, ComposeToThePoseOfTheCamera) {
 }
 
 // A UAV's own tree contains the pose that the UAV receives, not the true one, and no other UAV.
-TEST(OwnFrames, HaveThePosesThatTheUavIsTold) {
+TEST(OwnFrames, AUavsOwnFramesHaveThePosesThatItIsTold) {
   RandomStream random(2, "frames", 0);
   UavConfig uav;
   uav.name = "jurong";

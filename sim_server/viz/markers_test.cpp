@@ -106,7 +106,7 @@ TEST_F(Markers, FrustaEndWhereTheCameraStopsSeeing) {
   }
 }
 
-TEST_F(Markers, LinksAreThoseThatAreOpen) {
+TEST_F(Markers, TheLinkMarkerShowsTheOpenLinks) {
   for (int round = 0; round < kRounds; ++round) {
     move();
     Links links(kUavs + 1);
@@ -141,7 +141,7 @@ TEST_F(Markers, LinksAreThoseThatAreOpen) {
   expect_sound(link_marker(7, scenario_, views_, Links(kUavs + 1)));
 }
 
-TEST_F(Markers, TheFleetIsDrawnWhereItIs) {
+TEST_F(Markers, EachUavIsDrawnAtItsPose) {
   move();
   const msg::MarkerArray array = fleet_markers(7, scenario_, views_);
   std::set<std::pair<std::string, int>> ids;
@@ -195,7 +195,7 @@ TEST_F(Markers, BoxesHaveTheirEdgesAndTheStructureItsTriangles) {
   expect_sound(box_marker({}));
 }
 
-TEST_F(Markers, PathsAreTheTrails) {
+TEST_F(Markers, ThePathMarkersFollowTheTrails) {
   Trails trails(kUavs);
   for (Tick tick = 0; tick < 10 * Trails::kPeriod; tick += Trails::kPeriod) {
     move();

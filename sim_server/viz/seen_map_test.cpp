@@ -17,7 +17,7 @@ std::array<long, 3> cell_of(const Eigen::Vector3f& p, double edge) {
 }
 
 // The map has one point for each cell that was ever seen, namely one of the points seen there, and never changes it.
-TEST(SeenMap, KeepsAPointForEachCell) {
+TEST(SeenMap, TheMapKeepsAPointForEachCell) {
   constexpr double kEdge = 0.5;
   RandomStream random(1, "seen", 0);
   SeenMap map(kEdge);
@@ -44,7 +44,7 @@ TEST(SeenMap, KeepsAPointForEachCell) {
   EXPECT_EQ(kept, cells);
 }
 
-TEST(SeenMap, TellsFarCellsApart) {
+TEST(SeenMap, TheMapTellsFarCellsApart) {
   SeenMap map(0.5);
   std::vector<Eigen::Vector3f> corners;
   for (int bits = 0; bits < 8; ++bits) {

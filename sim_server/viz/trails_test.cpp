@@ -7,7 +7,7 @@ namespace {
 
 /// For all times of exchanges, a trail is the flight of the last minute, with points at most a period and an exchange
 /// apart.
-TEST(Trails, ContainTheLastMinuteOfTheFlight) {
+TEST(Trails, TrailsContainTheLastMinuteOfTheFlight) {
   for (const Tick exchange : {20, 40, 140, 400}) {
     Trails trails(2);
     std::vector<UavView> views(2);

@@ -1,4 +1,4 @@
-// Which UAVs work, by the referee's truth: flights of seconds and minutes before a wall, with drawn places and
+// Tests which UAVs work, judged by the true state: flights of seconds and minutes before a wall, with random places and
 // distances.
 #include "sim_server/work/work_log.hpp"
 

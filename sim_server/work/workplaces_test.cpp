@@ -12,7 +12,7 @@
 namespace skein::sim {
 namespace {
 
-TEST(Workplaces, KeepTheirBerthAndShowTheirPointsInDrawnWorlds) {
+TEST(Workplaces, WorkplacesKeepTheirClearanceAndShowTheirPointsInRandomWorlds) {
   for (const std::uint64_t seed : {104u, 151u}) {
     const World world = draw_world("wild", seed, source_path("config"));
     const Workplaces places(world.scenario, world.scene);
@@ -32,14 +32,14 @@ TEST(Workplaces, KeepTheirBerthAndShowTheirPointsInDrawnWorlds) {
   }
 }
 
-TEST(Workplaces, ThereAreNoneInsideAClosedBoxNorBelowTheGround) {
+TEST(Workplaces, NoWorkplaceIsInsideAClosedBoxOrBelowTheGround) {
   Scenario scenario;
   scenario.fleet.push_back({.name = "a", .vehicle = load_vehicle("photographer", source_path("config"))});
   Scene scene;
   test::add_box(scene.mesh, {0, 0, 15}, {30, 30, 30});
   scene.points.push_back({{14.9F, 0, 15}, {-1, 0, 0}});  // inside
   scene.points.push_back({{0, 0, 0.5F}, {0, 0, -1}});
-  scene.points.push_back({{15, 0, 15}, {1, 0, 0}});  // of the outer one
+  scene.points.push_back({{15, 0, 15}, {1, 0, 0}});  // on the outer side
   const Workplaces places(scenario, scene);
   EXPECT_EQ(places.of(UavIndex{0})[0].q, 0.0);
   EXPECT_EQ(places.of(UavIndex{0})[1].q, 0.0);
