@@ -25,8 +25,8 @@ class CountStore {
   /// step, count as dropped_fault.
   LinkMatrix<LinkCounts> earlier_counts() const;
 
-  /// Call it after each step. @param last  the messages that the router delivers with this step. The file counts them as
-  /// delivered only from the next step on, because they are lost if the router dies before.
+  /// Call it after each step. @param last  the messages that the router delivers with this step. The file counts them
+  /// as delivered only from the next step on, because they are lost if the router dies before.
   void save(const LinkGate& gate, const GatedStep& last);
   /// The reason why counts are no longer saved; empty while they are saved.
   const std::string& write_error() const { return write_error_; }

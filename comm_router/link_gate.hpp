@@ -76,7 +76,7 @@ struct Delivery {
 /// Messages on one directed link, since the run began if CountStore keeps the counts (else since the router started).
 /// sent + duplicated = delivered + dropped_no_los + dropped_fault + dropped_overflow + those still delayed.
 /// dropped_no_los counts messages between nodes that were not linked: no line of sight, out of range, or dead. Bytes
-/// are those of the serialised messages, with the four bytes of their encapsulation header, without the overhead of DDS.
+/// are those of the serialised messages, with the four bytes of their encapsulation header, without DDS overhead.
 struct LinkCounts {
   std::uint64_t sent = 0, delivered = 0, dropped_no_los = 0, dropped_fault = 0;
   std::uint64_t dropped_overflow = 0, duplicated = 0;

@@ -31,7 +31,8 @@ class HandNode {
   void publish(UavIndex uav);
   /// Call it when the UAV's agent has joined anew and does not know the command: the next step publishes it again.
   void resend(UavIndex uav);
-  /// Takes a debug value that a UAV's planner has published. Only kHeldSignal matters: it tells what holds the UAV back.
+  /// Takes a debug value that a UAV's planner has published. Only kHeldSignal is used: it tells what holds the UAV
+  /// back.
   void hear(UavIndex uav, const std::string& name, double value);
   /// Names of the UAVs that viewers fly.
   std::vector<std::string> names() const;

@@ -156,7 +156,8 @@ void StationNode::show_score(Tick tick) {
 }
 
 // Only the station knows which points were delivered. It sends them in the world domain, where it reads the ledger
-// anyway, so that viewers find them beside the server's topics. The topic is latched: later readers get the last sample.
+// anyway, so that viewers find them beside the server's topics. The topic is latched: later readers get the last
+// sample.
 void StationNode::show_to_viewers(Tick tick) {
   if (!viz_stale_ || tick < viz_due_ || !viz_scored_->has_readers()) return;
   viz_due_ = tick + kVizPeriod;
