@@ -85,7 +85,7 @@ TEST_F(CountStoreTest, ARouterIgnoresTheCountsOfAnotherRun) {
       << "the file belongs to the other run now";
 }
 
-TEST_F(CountStoreTest, OpeningItsFileFailsIfTheDiskIsFull) {
+TEST_F(CountStoreTest, OpeningTheFileFailsIfTheDiskIsFull) {
   const pid_t child = ::fork();  // so that the limit of file sizes does not apply to this process
   ASSERT_GE(child, 0);
   if (child == 0) {
@@ -105,7 +105,7 @@ TEST_F(CountStoreTest, OpeningItsFileFailsIfTheDiskIsFull) {
   EXPECT_EQ(WEXITSTATUS(status), 42);
 }
 
-TEST_F(CountStoreTest, ItsNewFileIsFullyAllocatedSoThatLaterWritesDoNotNeedFreeSpace) {
+TEST_F(CountStoreTest, ANewFileIsFullyAllocatedSoThatLaterWritesDoNotNeedFreeSpace) {
   const CountStore store(file_, 64);
   struct stat status {};
   ASSERT_EQ(::stat(file_.c_str(), &status), 0);

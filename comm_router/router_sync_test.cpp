@@ -1,4 +1,4 @@
-// Property: in whatever order samples, Done, Step and Drop arrive, RouterSync hands out the batches that the test
+// Property: in any order of arrival of samples, Done, Step and Drop, RouterSync hands out the batches that the test
 // expects from the order in which they were sent.
 #include "comm_router/router_sync.hpp"
 

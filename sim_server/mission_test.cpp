@@ -73,7 +73,7 @@ TEST_F(MissionTest, AMissionEndsWhenEachUavIsDeadOrHasLanded) {
   EXPECT_EQ(m.end(), MissionEnd::no_uav_flies);
 }
 
-TEST_F(MissionTest, AMissionGoesOnWhereALandedUavGetsAnotherBattery) {
+TEST_F(MissionTest, AMissionGoesOnIfLandedUavsGetNewBatteries) {
   scenario_.conditions.battery.endurance_missions = 0.3;
   scenario_.conditions.battery.swap_s = 30.0;
   Mission m = mission(2);

@@ -105,7 +105,7 @@ TEST(PoorPictures, TheKeptPictureIsTheBestOfAllThatDoNotCount) {
   EXPECT_GT(closed, 300U);
 }
 
-TEST(PoorPictures, KeepingThemDoesNotChangeTheDetectionsOfACamera) {
+TEST(PoorPictures, KeepingPoorPicturesDoesNotChangeTheDetectionsOfACamera) {
   DrawnExposures drawn(9);
   Referee referee(9, 1, drawn.points().size(), drawn.rules());
   Camera alone = drawn.camera(), noting = drawn.camera();

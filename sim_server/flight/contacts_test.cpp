@@ -12,7 +12,7 @@ namespace {
 
 BodyId uav(std::size_t i) { return {BodyId::Kind::uav, UavIndex{i}}; }
 
-TEST(Contacts, TheUavComesFirstAndOfTwoTheLower) {
+TEST(Contacts, TheUavComesFirstAndOfTwoUavsTheOneWithTheLowerIndex) {
   const BodyId ground{BodyId::Kind::ground, {}}, structure{BodyId::Kind::structure, {}};
   const Vector3d p_W(1, 2, 3);
   for (const auto& [a, b] : {std::pair(uav(4), ground), std::pair(uav(0), structure), std::pair(uav(2), uav(7))}) {

@@ -52,7 +52,7 @@ struct Plan {
 /// Makes a plan; does not fly it (`flown` stays empty). Depends on nothing but its arguments.
 Plan make_plan(const Scenario& scenario, const Scene& scene, const PlanConfig& config);
 
-/// Flies a plan in the simulation with seed 0: each UAV follows its moves, whatever happens.
+/// Flies a plan in the simulation with seed 0: each UAV follows its moves and reacts to nothing else.
 PlanFlight fly_plan(const Scenario& scenario, const Scene& scene, const PlanConfig& config, const Plan& plan);
 
 }  // namespace skein::sim

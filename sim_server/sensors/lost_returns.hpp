@@ -1,5 +1,5 @@
-// Draws which beams of a LiDAR return nothing, whatever they hit: each beam independently with the probability
-// `no_return_p`, and all beams in the columns of `dropped_sectors`.
+// Draws which beams of a LiDAR return nothing. The draw does not depend on what the beams hit: each beam is lost
+// independently with the probability `no_return_p`, and all beams in the columns of `dropped_sectors` are lost.
 // Units: SI; degrees where a name says so.   Threads: one.
 #pragma once
 
