@@ -50,8 +50,9 @@ void RadioRegistry::forget_the_lost() {
   std::erase_if(histories_, [&](const auto& entry) { return endpoints_.lost(entry.first); });
 }
 
-/// Whether the request contradicts the type in another request of this step that may yet be refused, because no writer
-/// of its asker has matched. No member loses a topic to a mistake of another one, so the next step decides.
+/// Whether the request names another type than an earlier request of this step that may still be refused, because its
+/// asker's writer has not matched. Such a request is decided in the next step, so that no member loses a topic because
+/// of another member's mistake.
 bool RadioRegistry::awaits_type(const RadioRequest& request) const {
   bool contradicts = false;
   for (std::size_t route = 0; route < table_.routes().size(); ++route) {

@@ -81,9 +81,9 @@ class RadioRegistry {
 
   /// Takes all requests of a step. @param requests  in the order in which they take effect.
   void begin_step(const std::vector<RadioRequest>& requests);
-  /// Whether an endpoint has not matched yet that must match before this step's messages may pass.
+  /// Whether this step's messages must still wait until an endpoint has matched.
   bool waiting() const { return !awaited().empty(); }
-  /// The requests that wait for such a match.
+  /// The requests whose endpoints have not matched.
   std::vector<AwaitedRequest> awaited() const;
   /// Ends a step. @returns its replies. A request whose asker has no matched writer (or reader) by now is refused.
   std::vector<RadioReply> end_step();

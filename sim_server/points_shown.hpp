@@ -12,7 +12,7 @@ class Simulation;
 
 /// All by interest point.
 struct PointsShown {
-  std::vector<bool> seen;  ///< whether it was ever in a picture and in sight, whatever its quality
+  std::vector<bool> seen;  ///< whether a camera ever saw the point, in any quality
   /// Best score that pictures would have had if each UAV had been where it believed to be (if_exact), or without wind
   /// (if_calm), if that exceeds its best score; else 0. Empty: no camera has such a picture (Camera::best_if_exact()).
   std::vector<float> if_exact, if_calm;

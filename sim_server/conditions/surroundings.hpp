@@ -83,7 +83,7 @@ class Surroundings {
   std::optional<double> last_in_flight_;  ///< BatteryUse::last_in_flight
   std::optional<Tick> stands_since_;      ///< when it came to stand near the station, with a battery to be swapped
   std::uint64_t swaps_ = 0;
-  double most_charge_ = 1.0;          ///< by the last suffer(); it limits the battery that the UAV had when it began
+  double most_charge_ = 1.0;          ///< as in the last suffer()
   Tick charge_lost_ = 0;              ///< likewise
   Vector3d v_WA_ = Vector3d::Zero();  ///< velocity of the air
   std::size_t latency_;               ///< exchanges
