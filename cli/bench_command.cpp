@@ -157,8 +157,8 @@ class Bench {
     }
   }
 
-  /// Beside the towers all UAVs of a fleet hear each other, so the largest fleets fly in the district, which grows with
-  /// the fleet.
+  /// In the scene `towers`, all UAVs of a fleet are in radio contact. The largest fleets therefore fly in the scene
+  /// `district`, which grows with the fleet.
   RunOptions scale_run(std::size_t uavs) const {
     const double mission_s = uavs >= kLargeFleet ? effort_.scale_mission_of_large_s : effort_.scale_mission_s;
     if (uavs <= kMostUavsOverDds) return fleet_run(write_scenario({uavs, mission_s, kExchangeS}, "scale"), "patrol");

@@ -104,7 +104,7 @@ std::string check_file(const CheckOptions& options, const std::string& file, con
   return {};
 }
 
-/// check_file(), with errors that name the file: what programs say of a scenario need not.
+/// Like check_file(), but each error names the file. The programs' own messages about a scenario may not name it.
 std::string named_check(const CheckOptions& options, const std::string& file, const Console& console) try {
   return check_file(options, file, console);
 } catch (const InputError& error) {
@@ -113,7 +113,8 @@ std::string named_check(const CheckOptions& options, const std::string& file, co
   throw InputError(file + ": " + text);
 }
 
-/// Hands reference vectors to sim_server, which holds the production code, with its output and its exit code.
+/// Lets sim_server, which contains the production code, check reference vectors. Its output and its exit code become
+/// those of this command.
 int check_golden(const std::string& file) {
   return hand_over({programs::kSimServer,
                     {program_dir() / programs::kSimServer, "--golden", std::filesystem::absolute(file)},

@@ -106,8 +106,7 @@ TEST(Options, TheDoctorsOptionsNameAFleetAndItsNetwork) {
   }
 }
 
-// Each example of a command is one that it understands.
-TEST(Options, CommandsForContainersShowExamples) {
+TEST(Options, TheParserAcceptsTheExamplesOfTheContainerCommands) {
   for (const std::string command : {"compose", "keys", "merge"}) {
     const std::string help = parse<HelpText>({command, "--help"}).text, mark = "\n  skein " + command + " ";
     std::size_t examples = 0;
@@ -289,14 +288,14 @@ TEST(Options, BenchMakesOneKindOfMeasurement) {
   }
 }
 
-TEST(Options, AHuntHasNoStatusAndDoesNotDetach) {
+TEST(Options, AHuntRefusesStatusAndDetach) {
   parse_command_line({"hunt", "towers", "--executor", "slurm"});
   EXPECT_THROW(parse_command_line({"hunt", "towers", "--executor", "slurm", "--detach"}), InputError);
   EXPECT_THROW(parse_command_line({"hunt", "--status", "runs/hunt"}), InputError);
   parse_command_line({"compare", "--status", "runs/compare"});
 }
 
-TEST(Options, TheLargestSeedAndTheLimitsAreTaken) {
+TEST(Options, TheLargestSeedAndTheLimitsAreAccepted) {
   EXPECT_EQ(parse<RunOptions>({"run", "--seed", "18446744073709551615"}).seed, ~std::uint64_t{0});
   EXPECT_EQ(parse<RunOptions>({"run", "--clock", "realtime:1000"}).clock, "realtime:1000");
   EXPECT_EQ(parse<RunOptions>({"run", "--stop-at", "36000"}).stop_at_s, 36000.0);
@@ -361,7 +360,7 @@ TEST(Options, ARefusalOfAnArgumentTellsTheCorrection) {
   EXPECT_EQ(said({"run", "towers", "cranes"}), unexpected + "cranes");
 }
 
-TEST(Options, OfFaultTestsBelongToFaultTests) {
+TEST(Options, FaultTestOptionsAreRefusedWithoutFaultTests) {
   const auto test = parse<TestOptions>(
       {"test", "--faults", "d", "--agent", "a", "--jobs", "3", "--seeds", "1-20", "--junit", "x.xml", "-v"});
   EXPECT_EQ(test.agent, "a");

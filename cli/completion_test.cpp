@@ -143,7 +143,8 @@ TEST(Completion, NothingIsOfferedForAnOptionThatTakesAnyTextOrFile) {
   EXPECT_EQ(offered({"run", "--no-such"}), Words{});
 }
 
-/// Tests the script itself: it splits the line, and gives bash the replacement. This `skein` prints its arguments.
+/// Tests the script itself, which splits the line and gives bash the replacement. A function replaces `skein`: it
+/// completes the last word by "hover", and adds the number of words.
 TEST(Completion, BashGetsTheLastPartOfAWord) {
   const auto replies = [](const std::string& line) {
     const std::string script = "skein() { shift; printf \"%s\\n\" \"${@: -1}hover\" \"$#\"; }; . " +

@@ -156,7 +156,8 @@ void tell_who_waits(const FleetPlan& plan, const std::map<std::string, std::stri
   }
 }
 
-/// Completes the logs of containers that a user has started again. Results matter more: Ctrl-C leaves it out.
+/// Completes the logs of containers that a user has started again. Ctrl-C skips the rest of this, so that the results
+/// are still written.
 void add_later_logs(const std::map<std::string, std::string>& containers,
                     const std::map<std::string, std::string>& starts, const ComposeLayout& layout,
                     const fs::path& out) try {

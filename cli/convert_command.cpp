@@ -35,7 +35,7 @@ void add_convert(CLI::App& app, ConvertOptions& convert) {
 }
 
 int convert_files(const ConvertOptions& options, const Console& console) {
-  std::vector<Conversion> all;  // whatever one of the files is refused for, none has been changed then
+  std::vector<Conversion> all;  // converted before the first file is written: an error leaves every file unchanged
   for (const std::filesystem::path& path : options.files) {
     for (const std::filesystem::path& file : fault_test_files(path)) all.push_back(conversion_of(file));
   }

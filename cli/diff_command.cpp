@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr std::array kSettled = {"status",         "deterministic",   "digest",      "sim_time_s",   "points_total",
                                  "mission_time_s", "points_detected", "score",       "score_earned", "score_by_uav",
                                  "collisions",     "faults",          "flight_check"};
-/// As above: what the runs were told to do. If it differs, it explains all other differences, so it is reported first.
+/// More of these keys: what the runs were told to do. A difference here explains all others, so it is reported first.
 constexpr std::array kInputs = {"seed", "scene_seed", "exchange_period_s", "rules", "conditions"};
 constexpr std::array kSettledOfUavs = {"name",     "role",   "alive",    "distance_m",       "max_speed_mps",
                                        "captures", "idle_s", "frozen_s", "commands_rejected"};
@@ -100,7 +100,7 @@ bool records_nothing(const fs::path& run) try {
     if (word == "--record" || word.starts_with("--record=")) return word == "--record=none";
   }
   return false;
-} catch (const InputError&) {  // no words of a shell
+} catch (const InputError&) {  // the command is not in the shell's syntax
   return false;
 }
 

@@ -19,8 +19,8 @@ struct DiffOptions {
 void add_diff(CLI::App& app, DiffOptions& diff);
 
 /// `skein diff`: when two runs start to differ, and in what. Compares the digests step by step, the radio messages and
-/// commands (if both runs have recordings), the results, and the tables of captures, events, scores and trajectories.
-/// That only one run has a recording is a difference, unless the other one was told to record nothing.
+/// commands (if the digests differ and both runs have recordings), the results, and the tables of captures, events, scores and trajectories.
+/// A recording that only one run has is a difference, unless the other run was told to record nothing.
 /// @returns 0 the same, 1 different. @throws InputError when a folder holds no run, or one of its files is damaged.
 int diff_runs(const DiffOptions& options, const Console& console);
 

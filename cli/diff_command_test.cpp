@@ -126,7 +126,7 @@ TEST_F(DiffCommand, ARunThatHasLostItsRecordingIsNotTheSame) {
   EXPECT_EQ(diff(), kExitDone) << "neither run has a recording";
 }
 
-TEST_F(DiffCommand, ARunThatWasToldToRecordNothingHasNoRecording) {
+TEST_F(DiffCommand, ARunThatWasToldToRecordNothingNeedsNoRecording) {
   for (const std::string run : {"a", "b"}) {
     const std::string other = run == "a" ? "b" : "a", owner = run == "a" ? "first" : "second";
     write(run, "recording.mcap", "never read");

@@ -16,7 +16,8 @@ namespace {
 using report::xml_elements;
 using report::XmlElement;
 
-/// A sim_server that writes a report, whose digest names the DDS vendor and the chaos, and a line about the flight.
+/// A sim_server that writes a report with the digest DIGEST. It adds a line to `flights`, with faults, DDS vendor and
+/// chaos of the flight, and a line to `seeds`.
 constexpr const char* kFlyingServer = R"(
 faults=no; dds=none
 for word in $arguments; do
@@ -112,7 +113,7 @@ TEST_F(FaultTestCommand, TheRunWithoutFaultsIsFlownOnceForAllTests) {
   EXPECT_EQ(flights(), "yes cyclonedds calm\nno cyclonedds calm\nyes cyclonedds calm\n");
 }
 
-TEST_F(FaultTestCommand, RepetitionsMayTakeTurns) {
+TEST_F(FaultTestCommand, WithRotateEachTestFliesOneOfTheRepetitions) {
   test_file("a", "always result(score) == 3");
   test_file("b", "always result(score) == 3");
   TestOptions options;
@@ -175,7 +176,7 @@ TEST_F(FaultTestCommand, VerbosePrintsTheObservedValues) {
       << out_.str();
 }
 
-TEST_F(FaultTestCommand, WritesAReportForOtherPrograms) {
+TEST_F(FaultTestCommand, WritesAReportAsJUnitXml) {
   test_file("a_good", "always result(score) == 3");
   test_file("b_bad<&\">", "always result(score) >= 5");
   TestOptions options;

@@ -21,8 +21,8 @@
 namespace skein::cli {
 namespace {
 
-/// The command of these arguments. A mission that names no duration gets that of the environment, except in a capsule,
-/// which has all that is flown.
+/// The command of these arguments. A mission without --duration gets the duration in the environment. A capsule does
+/// not: it fixes its own flight completely.
 Command command_of(const std::vector<std::string>& arguments) {
   Command command = parse_command_line(arguments);
   const auto* run = command.get_if<RunOptions>();

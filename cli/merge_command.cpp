@@ -76,13 +76,13 @@ bool has_report(const fs::path& dir, const std::string& program) {
   return fs::exists(fs::symlink_status(dir / run_folder::report_file(program), error));
 }
 
-/// The same of the program's file; null also if there is none.
+/// The defect of the report file of a program; nullopt if the report is sound, or there is none.
 std::optional<std::string> damage_of(const fs::path& dir, const std::string& program) {
   if (!has_report(dir, program)) return std::nullopt;
   return damage_in(read_json(dir / run_folder::report_file(program)), program);
 }
 
-/// Without the report, the result would be wrong in silence: a damaged one is not the same as none.
+/// Refuses a damaged report: a result made without it would be wrong, and would not show it.
 /// @throws InputError if the report is damaged
 void require_sound(const fs::path& dir, const std::string& program) {
   const std::optional<std::string> damage = damage_of(dir, program);
@@ -94,7 +94,7 @@ void require_sound(const fs::path& dir, const std::string& program) {
 }
 
 /// If a program died before it wrote its report, or the report is damaged, starts it again to write the report from its
-/// journal (`books`). @throws InputError if the report is damaged and there are no books
+/// journal (the file `books`). @throws InputError if the report is damaged and cannot be restored from a journal
 void settle(const char* program, const char* books, const RunOptions& run, const FlightReport& flight,
             const fs::path& dir, std::ostream& err) {
   const fs::path report = dir / run_folder::report_file(program);
@@ -150,15 +150,15 @@ results::RunFacts facts_of(const RunOptions& run, const Scenario& scenario, cons
   return facts;
 }
 
-/// Why there is no result. @param damage  of the server's report, if there is one
+/// Why there is no result. @param damage  the defect of the server's report; nullopt: there is no report
 std::string no_server(const MergeOptions& options, const std::optional<std::string>& damage) {
   if (damage) return (options.dir / run_folder::report_file(programs::kSimServer)).string() + ": " + *damage;
   return options.dir.string() + ": there is no " + run_folder::report_file(programs::kSimServer) +
          " in it: the run is not over, or its server died";
 }
 
-/// Prevents a launcher, or another merge, from using the folder at the same time: to join the parts of a recording
-/// deletes them, also if a flying fleet still writes to them. @throws InputError if the folder is in use, or is none
+/// Prevents a launcher, or another merge, from using the folder at the same time: joining the parts of a recording
+/// deletes them, even while a fleet still writes to them. @throws InputError if the folder is in use or missing
 FolderLock lock_of(const fs::path& dir) try {
   std::error_code error;
   if (!fs::is_directory(dir, error)) throw InputError(dir.string() + ": there is no such folder");

@@ -117,7 +117,7 @@ TEST_F(MergeCommand, AChangedNumberInAReportIsDamage) {
                                 << err_.str();
 }
 
-TEST_F(MergeCommand, ADamagedReportIsMadeAgainFromTheBooks) {
+TEST_F(MergeCommand, ADamagedReportIsMadeAgainFromTheJournal) {
   programs_.script("station", "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n");
   truncate("station");
   write_text(dir() / run_folder::kJournal, "the journal");

@@ -49,7 +49,7 @@ TEST(OptionChecks, WholeNumbersAreDecimal) {
   EXPECT_EQ(parse_command_line({"run", "--duration", "010"}).get<RunOptions>().duration_s, 10.0);
 }
 
-TEST(OptionChecks, AFleetOfNoUavsIsRefusedInAFewWords) {
+TEST(OptionChecks, AFleetWithoutUavsIsRefusedWithAShortMessage) {
   for (const std::string command : {"run", "compare", "hunt", "check-planner"}) {
     Arguments arguments = {command, "--uavs", "0"};
     if (command == "check-planner") arguments.insert(arguments.begin() + 1, "hover");

@@ -56,7 +56,7 @@ class OracleCommand : public ::testing::Test {
   std::ostringstream out_, err_;
 };
 
-TEST_F(OracleCommand, PrintsBothAnswersOrOne) {
+TEST_F(OracleCommand, PrintsReachableAndOutsideOrOnlyOutside) {
   answer(rows({kAnswer}));
   EXPECT_EQ(run(), 0);
   EXPECT_NE(out_.str().find("mbs: 9 interest points, cameras 0.5 m clear"), std::string::npos) << out_.str();
@@ -152,7 +152,7 @@ TEST_F(OracleCommand, ThePlanIsShownOnlyWithItsOption) {
   EXPECT_EQ(Json::parse(out_.str()), Json::parse(kAnswer));
 }
 
-TEST_F(OracleCommand, TheAnswerToARunHasAPlanThatIsKnown) {
+TEST_F(OracleCommand, TheAnswerForARunIncludesACachedPlan) {
   answer(rows({with_plan()}));
   EXPECT_EQ(attainable_of(run_of("mbs")).attainable["plan"],
             Json::parse(R"({"points": 7, "score": 6.0, "flown_score": 6.6})"));

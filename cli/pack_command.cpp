@@ -102,7 +102,7 @@ std::optional<fs::path> python_package() {
   return std::nullopt;
 }
 
-/// Copies a file with its permissions. fs::copy() would name the wrong file if the disk is full, and no reason.
+/// Copies a file with its permissions. On a full disk, fs::copy() would name the wrong file, and give no reason.
 void pack_file(const fs::path& from, const fs::path& to) {
   fs::create_directories(to.parent_path());
   write_file_atomically(to, read_file_bytes(from, kMostOfAFile), Readers::all, Flush::none);
@@ -117,7 +117,8 @@ void pack_folder(const fs::path& from, const fs::path& to) {
   }
 }
 
-/// The archive as it is made: its parts, and the file before it has its name. Removes both at the end.
+/// The archive while it is being made: a folder with its parts, and a temporary file. Removes both, first what an
+/// earlier call left, and in the end its own.
 struct Unfinished {
   explicit Unfinished(const fs::path& archive)
       : file(archive.string() + ".tmp"), parts(archive.parent_path() / (archive.filename().string() + ".parts")) {

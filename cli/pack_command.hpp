@@ -22,7 +22,7 @@ struct PackOptions {
 void add_pack(CLI::App& app, PackOptions& pack);
 
 /// `skein pack`: the programs with all libraries that they need, in one archive that runs wherever it is unpacked.
-/// Until the archive is complete and on the disk, nothing has its name.
+/// The archive gets its name only once it is complete and on the disk.
 /// @throws InputError for a target that is a folder, or an agent or library that is not there; std::system_error or
 ///   std::runtime_error, with the archive's name, if the disk is full or tar fails.
 int pack_programs(const PackOptions& options, const Console& console);
