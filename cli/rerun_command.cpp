@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The options of the flight of a command: for a capsule, those in its file, and few of the command's own.
+/// The options with which a command flies: for a capsule, those in its file, and a few of the command's own.
 RunOptions options_flown(const RunOptions& given) {
   if (!is_capsule(given)) return given;
   RunOptions options = load_fault_test(given.scenario, given.assets, given.agent).plan.options;
@@ -73,7 +73,8 @@ RunOptions options_now(const RunOptions& given, const fs::path& run, const Json&
   RunOptions options = reading([&] { return options_flown(given); });
   const Scenario scenario = reading([&] { return scenario_flown(options, false); });
   check_flies_the_run(options, scenario, run, result);
-  if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;  // wherever the run is now
+  // The faults, with those that the user added in flight. `run` is where the folder is now: it may have been moved.
+  if (fs::exists(run / run_folder::kByHand)) options.faults = run / run_folder::kByHand;
   reading([&] { return load_fault_plan(options.faults.value_or(""), scenario, options.seed); });
   return options;
 }

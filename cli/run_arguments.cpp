@@ -65,7 +65,7 @@ std::vector<std::string> arguments_of(const RunOptions& run) {
 
 std::vector<std::string> flight_words(const RunOptions& run) try {
   return {kFlight, json_of(run).dump()};
-} catch (const Json::exception&) {  // json_text() would replace bytes, and the flight go to another folder
+} catch (const Json::exception&) {  // json_text() would replace bytes, and name another folder
   throw InputError("this flight has names that are not in UTF-8; rename the file or folder: skein " +
                    as_utf8(shell_line(arguments_of(run))));
 }

@@ -57,7 +57,7 @@ void add_tables(const RunOptions& options, const std::filesystem::path& dir, con
   result["losses"] = losses_of(dir, answer.by_point, reports, warnings);
 }
 
-/// Adds the command that repeats a flight flown by hand, from the recorded commands.
+/// Adds the command that repeats a flight in which the user flew UAVs by hand or added faults.
 void tell_how_to_repeat(const RunResults& run, const std::filesystem::path& shown, Json& result) {
   if (run.facts.command.empty()) return;
   Repeated by;
@@ -84,7 +84,7 @@ std::optional<Json> write_results(const RunResults& run, const std::filesystem::
                                   const std::function<std::vector<std::string>()>& collect, const Console& console) {
   Json result = results::merge_result(run.facts, run.scenario, run.reports);
   tell_how_to_repeat(run, shown, result);
-  // First of all: the next steps may fail, or fill the disk.
+  // The result is written first, because the next steps may fail, or fill the disk.
   const bool written = write_result(run, result, console.err);
   const std::size_t warnings_written = result["warnings"].size();
   for (std::string& warning : collect()) result["warnings"].push_back(std::move(warning));

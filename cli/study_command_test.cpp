@@ -152,7 +152,7 @@ TEST_F(StudyCommand, TheRepeatCommandCallsThisSkeinAndNamesItsAgentProgram) {
   EXPECT_NE(file("report.html").find(with_agent), std::string::npos);
 }
 
-TEST_F(StudyCommand, AnAgentProgramThatAPlannerNamesFliesItAlsoIfItIsBuiltIn) {
+TEST_F(StudyCommand, TheNamedAgentProgramFliesAPlannerThatIsAlsoBuiltIn) {
   const auto mine = programs_.dir() / "mine";
   write_script(programs_.dir() / "uav_agent", agent_script("\"hover\", \"patrol\"", "stock"));
   write_script(mine, agent_script("\"hover\"", "mine"));
@@ -196,7 +196,7 @@ TEST_F(StudyCommand, AFlightThatFailsIsNotedAndTheOthersGoOn) {
   EXPECT_EQ(flown(), "hover 2\npatrol 3\n");
 }
 
-TEST_F(StudyCommand, CtrlCStopsAndTheSameCommandGoesOn) {
+TEST_F(StudyCommand, CtrlCStopsAStudyAndTheSameCommandContinuesIt) {
   hook("if [ $seed = 2 ]; then kill -INT $PPID; trap 'exit 130' INT; for i in $(seq 1000); do sleep 0.01; done; fi\n");
   EXPECT_EQ(run(), kExitInterrupted);
   EXPECT_EQ(flown(), "hover 1\npatrol 1\nhover 2\n");
