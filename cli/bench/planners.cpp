@@ -21,7 +21,7 @@ std::vector<StudyOptions> studies(const BenchOptions& options) {
   StudyOptions families;
   families.planner_lists = {kBenchPlanners};
   families.seeds = "0";
-  families.force = true;  // after a change; flights that still fit are kept
+  families.force = true;  // the programs may have changed; flights that still fit are kept
   StudyOptions worlds = families;
   families.scenarios = bench_scenarios(options);
   families.assets = options.assets;

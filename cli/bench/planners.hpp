@@ -20,8 +20,8 @@ std::vector<std::string> bench_scenarios(const BenchOptions& options);
 /// Flies a study of a benchmark. @returns nullopt after Ctrl-C.
 std::optional<Study> flown_study(const StudyPlan& plan, const Console& console);
 
-/// Flies, in runs/bench-planners, what these programs have not flown yet; prints the comparison, and writes the table
-/// to --write. Takes about ten minutes, with --quick one. @returns kExitDone; kExitProcessFailed when a flight failed;
+/// Flies the flights that these programs have not flown yet, in runs/bench-planners; prints the comparison, and writes
+/// the table to --write. Takes about ten minutes, with --quick one. @returns kExitDone; kExitProcessFailed when a flight failed;
 /// kExitInterrupted. @throws InputError when the table cannot be read.
 int bench_planners(const BenchOptions& options, const Console& console);
 

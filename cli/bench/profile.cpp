@@ -55,7 +55,7 @@ Json cost(double cpu_s, std::size_t uavs) {
   return {{"ms", 1e3 * cpu_s}, {"us_a_uav", uavs == 0 ? 0.0 : 1e6 * cpu_s / static_cast<double>(uavs)}};
 }
 
-/// Of a stage or part of an entry: a figure that it does not have is 0.
+/// A figure of a stage or part of an entry; 0 if the entry does not have it.
 double cost_in(const Json& entry, const char* group, const std::string& name, const char* figure) {
   return number_in(value_or(value_or(entry, group, Json::object()), name.c_str(), Json::object()), figure);
 }
@@ -171,7 +171,7 @@ double mission_of(std::size_t uavs, const BenchOptions& options) {
 }
 
 /// Flies fleets of one size, with results in `out`. @returns their entry; null if Skein refuses such a fleet, for
-/// example since the planner is not made for so many UAVs: then a line on `err` has the reason.
+/// example because the planner is not made for so many UAVs: then a line on `err` has the reason.
 Json measure(const std::string& planner, std::size_t uavs, const BenchOptions& options,
              const std::filesystem::path& out, std::ostream& err, bool& failed) try {
   RunOptions run = profile_run(planner, uavs, mission_of(uavs, options));

@@ -177,7 +177,7 @@ TEST(BenchReport, InOneProcessTheServersShareIsWhatItsOwnClockMeasures) {
   EXPECT_DOUBLE_EQ(all_s, 10.0);
 }
 
-TEST(BenchReport, ARunWithoutAMemberIsNoRunToTheEnd) {
+TEST(BenchReport, ARunThatLostAMemberDidNotRunToTheEnd) {
   EXPECT_TRUE(ran_to_the_end(result()));
   Json lost = result();
   lost["lost_members"].push_back({{"member", "a"}});
@@ -187,7 +187,7 @@ TEST(BenchReport, ARunWithoutAMemberIsNoRunToTheEnd) {
   EXPECT_FALSE(ran_to_the_end(aborted));
 }
 
-TEST(BenchReport, TheRadioEntryHasTheMedianOfTheRelays) {
+TEST(BenchReport, RadioAndMemoryEntriesMeetOrMissTheirTargets) {
   const Json relay = relay_entry(
       "fastdds",
       {{{"bytes", 200}, {"router_us", {{"median", 90.0}}}, {"relay_us", {{"median", 60.0}}}, {"times_relay", 1.5}}});

@@ -94,7 +94,7 @@ StudyOptions flights(const BenchOptions& options) {
   study.duration_s = options.duration_s;
   if (options.quick && !study.duration_s) study.duration_s = kQuickMissionS;
   study.out = "runs/bench-tracking";
-  study.force = true;  // after a change; flights that still fit are kept
+  study.force = true;  // the programs may have changed; flights that still fit are kept
   return study;
 }
 

@@ -66,15 +66,15 @@ class WatchingBench {
   }
 
  private:
-  /// One `skein run --view`. @returns its result.json.
-  Json fly(const std::string& who, Json& page) {
+  /// One `skein run --view`. @param shown  what the browser shows: "page" or "none". @returns its result.json.
+  Json fly(const std::string& shown, Json& page) {
     const fs::path out = scratch_.path() / "run", log = scratch_.path() / run_folder::log_file("view");
     const double flight_s = options_.duration_s.value_or(options_.quick ? kQuickWatchedS : kWatchedS);
     std::vector<std::string> argv = {tools_.node,
                                      tools_.script,
                                      tools_.web,
                                      tools_.chromium,
-                                     who,
+                                     shown,
                                      out,
                                      program_dir() / "skein",
                                      "run",

@@ -141,7 +141,7 @@ TEST_F(ComposeFile, EachDomainIsANetworkOfItsServices) {
   });
 }
 
-TEST_F(ComposeFile, EachContainerMayDoLittle) {
+TEST_F(ComposeFile, EachContainerHasFewRights) {
   for_all([](const Fleet&, const Compose& file) {
     for (const std::string& service : file.services()) {
       EXPECT_TRUE(file.of(service, "init").as<bool>() && file.of(service, "read_only").as<bool>()) << service;
@@ -163,7 +163,7 @@ TEST_F(ComposeFile, EachContainerMayDoLittle) {
   });
 }
 
-TEST_F(ComposeFile, EachProgramIsToldItsPeersByNamesThatTheyHave) {
+TEST_F(ComposeFile, EachProgramGetsThePeersOfItsNetworksByTheirAliases) {
   for_all([](const Fleet&, const Compose& file) {
     Names all;
     std::size_t count = 0;
@@ -296,7 +296,7 @@ TEST_F(ComposeFile, PlannersGetTheirParametersAsTheUserWroteThem) {
   });
 }
 
-TEST_F(ComposeFile, SubnetsLieBesideEachOtherInTheGivenOne) {
+TEST_F(ComposeFile, TheNetworksDivideTheGivenSubnetWithoutOverlap) {
   for_all([](const Fleet& fleet, const Compose& file) {
     std::set<std::uint32_t> taken;
     for (const std::string& network : file.networks()) {
@@ -314,7 +314,7 @@ TEST_F(ComposeFile, SubnetsLieBesideEachOtherInTheGivenOne) {
   });
 }
 
-// As `skein run` tells the program of a planner exec:CMD or ros:PACKAGE/EXECUTABLE.
+// `skein run` gives the same variables to the program of a planner exec:CMD or ros:PACKAGE/EXECUTABLE.
 TEST_F(ComposeFile, AProgramOfTheUsersOwnImageIsToldItsRoleItsRadioTopicsAndTheTimeOfAnExchange) {
   std::set<std::string> roles;
   for_all([&](const Fleet& fleet, const Compose& file) {

@@ -10,8 +10,8 @@
 
 namespace skein::cli {
 
-/// A text for one line of a comment, which it cannot end: bytes other than printable ASCII are written as bash reads
-/// them within single quotes, 'a'$'\x0a''b'.
+/// A text for one line of a comment. So that the text cannot end the line, bytes other than printable ASCII are written
+/// as bash reads them within single quotes: 'a'$'\x0a''b'.
 std::string in_comment(const std::string& text);
 
 class ComposeYaml {
