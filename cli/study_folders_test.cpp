@@ -122,8 +122,8 @@ TEST_F(StudyCommand, AFolderOfOtherFilesIsLeftAsItIsUnlessForced) {
   EXPECT_EQ(run(), kExitDone) << "now the folder is that of a study";
 }
 
-// Slurm opens the log of a job before the job begins. A launcher that was killed leaves the file that reserved space for
-// its result.
+// Slurm opens the log of a job before the job begins. A launcher that was killed leaves the file that reserved space
+// for its result.
 TEST_F(StudyCommand, AnEmptyFolderAndOneWithTheLogOfItsJobAreAccepted) {
   const std::vector<std::string> logs = {"slurm-17.out", "slurm-17_3.out", "job.log", "job.err"};
   fs::create_directories(*options_.out);

@@ -21,8 +21,9 @@ std::vector<std::string> bench_scenarios(const BenchOptions& options);
 std::optional<Study> flown_study(const StudyPlan& plan, const Console& console);
 
 /// Flies the flights that these programs have not flown yet, in runs/bench-planners; prints the comparison, and writes
-/// the table to --write. Takes about ten minutes, with --quick one. @returns kExitDone; kExitProcessFailed when a flight failed;
-/// kExitInterrupted. @throws InputError when the table cannot be read.
+/// the table to --write. Takes about ten minutes, with --quick one.
+/// @returns kExitDone; kExitProcessFailed when a flight failed; kExitInterrupted.
+/// @throws InputError when the table cannot be read.
 int bench_planners(const BenchOptions& options, const Console& console);
 
 }  // namespace skein::cli

@@ -35,8 +35,9 @@ class ComposeProject {
   std::map<std::string, std::string> containers() const;
   /// When each container was last started, by its id; empty if the engine does not say it.
   static std::map<std::string, std::string> starts(const std::map<std::string, std::string>& containers);
-  /// Appends to the logs of containers that were started again since `starts` what they wrote after that, which
-  /// nothing follows. @param folder  of the logs. @param foreign  services whose stdout belongs to the log, too
+  /// For each container that was started again since `starts`, appends its later output to its log: the follower of
+  /// the container has ended by then. @param folder  of the logs. @param foreign  services whose stdout belongs to the
+  /// log, too
   static void add_later_logs(const std::map<std::string, std::string>& containers,
                              const std::map<std::string, std::string>& starts, const std::filesystem::path& folder,
                              const std::set<std::string>& foreign);

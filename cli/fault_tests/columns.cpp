@@ -17,7 +17,8 @@ std::string line_of(const std::string& text, std::size_t number) {
   return line;
 }
 
-/// Counted from 1. Keys around the last one stand before it, as far as they are on the same line.
+/// The column of the last key of a path, counted from 1. Its enclosing keys, if they are on the same line, stand before
+/// it.
 std::size_t column_of(const std::string& key_path, const std::string& line) {
   static const std::regex kKey("[A-Za-z_][A-Za-z0-9_]*");
   std::size_t place = std::string::npos;

@@ -1,4 +1,4 @@
-// Columns for messages that name no more than a line. Programs write capsules (docs/how-to-hunt.md) in long lines with
+// Adds columns to messages that name only a line. Programs write capsules (docs/how-to-hunt.md) in long lines with
 // many keys, so a line alone does not show the place.   Pure.
 #pragma once
 

@@ -37,7 +37,7 @@ struct OldLimits {
     most = bound("at_most");
   }
 
-  /// For counts that never fall: whether more can only break these limits.
+  /// For counts that never fall: whether a higher count can only break these limits.
   bool only_from_above() const { return !most.empty() && number(least) <= 0.0; }
   std::string text(const std::string& what, const std::string& unit = "") const {
     if (!least.empty() && least == most) return what + " == " + least + unit;
@@ -122,7 +122,7 @@ class NewProperties {
     }
   }
 
-  /// The share that a ready property of the file asks for; 0: it is not one. "80 %" is 0.8.
+  /// The share that a ready property of the file asks for; 0: it is not a ready property. "80 %" is 0.8.
   static double share_of(const ConfigNode* property, double usual) {
     if (property == nullptr || (property->kind != Kind::map && property->scalar != "ready")) return 0.0;
     const ConfigNode* given = property->find("share");

@@ -180,7 +180,7 @@ struct Drawn {
       if (below(3) > 0) continue;
       double seen = 0.0;
       for (const Event& event : events) {
-        // The way to the first position in the window lies before it.
+        // The vehicle flew the distance to its first position in the window before the window.
         const bool is_in = event.step >= from + (kind == std::string("distance_m")) && (!has_end || event.step <= to);
         if (event.kind == kind && is_in && (!is_alpha || event.uav == "alpha")) seen += event.amount;
       }

@@ -6,7 +6,7 @@
 namespace skein::cli {
 namespace {
 
-/// When two runs part, where their digests tell.
+/// The time at which two runs first differ; nullopt if their digests do not show it.
 std::optional<double> parting_time(const results::RunRecord& run, const results::RunRecord& other) try {
   const auto difference = results::first_difference(run.dir, other.dir);
   return difference ? std::optional(difference->time_s) : std::nullopt;

@@ -21,7 +21,7 @@ constexpr std::array<EnumName<Vendor>, 3> enum_names(Vendor) {
   return {{{"cyclonedds", Vendor::cyclonedds}, {"fastdds", Vendor::fastdds}, {"mixed", Vendor::mixed}}};
 }
 
-/// A file's `run`: options of `skein run`, with their defaults but for the length.
+/// A file's `run`: options of `skein run`, with the same defaults except for the duration.
 struct RunPart {
   std::string scenario = RunOptions{}.scenario, planner = kDefaultPlanner;
   std::uint64_t seed = 0;
@@ -151,7 +151,7 @@ void refuse_old_keys(const ConfigDocument& document, const fs::path& file) {
   errors.throw_if_any();
 }
 
-/// A capsule that is about nothing in the file would hold for ever.
+/// Refuses a capsule whose property is not in the file: nothing would evaluate it, so it would always hold.
 void check_mark(const CapsuleMark& mark, const properties::PropertySet& set, ConfigErrors& errors) {
   std::vector<std::string> known = {kCompletes, kSameDigest};
   for (const properties::NamedProperty& property : set) known.insert(known.begin(), property.name);
@@ -212,7 +212,7 @@ FaultTest load_fault_test(const fs::path& file, const std::optional<fs::path>& a
   } catch (const InputError& error) {
     if (document.root.find("capsule") == nullptr) throw;
     ConfigDocument by_path = document;
-    by_path.origin = fs::absolute(file).string();  // as its faults are called
+    by_path.origin = fs::absolute(file).string();  // errors in `faults` name the file by this path
     throw InputError(with_columns(with_columns(error.what(), document), by_path));
   }
 }

@@ -147,7 +147,7 @@ TEST_F(FaultTestFile, AnErrorInACapsuleIsReportedWithItsColumn) {
   refused(run + with(rest, "skein", "sken"), "mine.yaml:5:47: unknown key 'capsule.sken'");
 }
 
-TEST_F(FaultTestFile, AFolderIsAllItsFilesAndAFileIsItself) {
+TEST_F(FaultTestFile, AFolderStandsForItsFilesAndAFileForItself) {
   EXPECT_EQ(fault_test_files(programs_.dir() / "small.yaml").size(), 1u);
   EXPECT_THROW(fault_test_files(programs_.dir() / "none.yaml"), InputError);
   write_text(programs_.dir() / "tests_b.yaml", "");

@@ -33,7 +33,7 @@ struct FaultFlights {
 
 FaultFlights plan_fault_flights(const std::vector<FaultTest>& tests, const TestOptions& options);
 
-/// Names a run but for its faults and DDS vendor, which do not show in a run without faults.
+/// A text that is the same for two runs if they are the same run without faults, whatever the DDS vendor.
 std::string what_is_flown(const RunOptions& options);
 
 }  // namespace skein::cli

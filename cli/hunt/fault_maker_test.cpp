@@ -95,7 +95,7 @@ TEST_F(FaultMakers, EachFaultLastsLongEnoughToActWhateverTheExchangePeriod) {
   }
 }
 
-TEST_F(FaultMakers, AllFaultsEndInTimeExceptDeathsForGood) {
+TEST_F(FaultMakers, AllFaultsEndInTimeExceptPermanentKills) {
   const std::vector<std::string> uavs = towers_.uav_names();
   int deaths = 0, kills = 0;
   each([&](const std::vector<Fault>& faults) {
@@ -119,8 +119,8 @@ TEST_F(FaultMakers, AllFaultsEndInTimeExceptDeathsForGood) {
   EXPECT_LT(3 * deaths, kills);
 }
 
-/// The death of a program that is killed for good has no end. A variation of it has an end, or is again such a death.
-TEST_F(FaultMakers, VariationsOfADeathForGoodEndInTime) {
+/// A permanent kill has no end. Each variation of it ends in time, or is again a permanent kill.
+TEST_F(FaultMakers, VariationsOfAPermanentKillEndInTime) {
   const FaultMaker maker(towers_, space_);
   const std::vector<Fault> death = {{.at_s = 20.0, .until_s = std::nullopt, .action = Kill{towers_.uav_names()[0]}}};
   int others = 0;
@@ -137,17 +137,17 @@ TEST_F(FaultMakers, VariationsOfADeathForGoodEndInTime) {
 }
 
 TEST_F(FaultMakers, NoFaultLastsLongerThanItsKindMay) {
-  std::map<std::string, double> most_s;
+  std::map<std::string, double> longest_shares;  // longest duration of each kind, as a share of its limit
   each([&](const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) {
       if (!fault.until_s) continue;
       EXPECT_LE(length_s(fault), longest_s(fault) + 1e-9) << fault_line(fault);
-      double& most = most_s[fault_kind(fault)];
+      double& most = longest_shares[fault_kind(fault)];
       most = std::max(most, length_s(fault) / longest_s(fault));
     }
   });
   for (const std::string& kind : fault_kinds())
-    EXPECT_GT(most_s[kind], 0.5) << kind << " never lasts longer than 0.5 s";
+    EXPECT_GT(longest_shares[kind], 0.5) << kind << " never lasts longer than 0.5 s";
 }
 
 /// From a fault of any length, a search can reach shorter and longer ones, up to the limits.
