@@ -25,7 +25,8 @@ void add_merge(CLI::App& app, MergeOptions& merge);
 
 /// `skein merge`: writes the files that the launcher would write after a run, for fleets that were started without it.
 /// If the server left no report, only joins the parts of the recording, and prints what is missing.
-/// @returns as `skein run` would: 3 when members were lost or there is no result; 1 when the recording or a table is damaged.
+/// @returns as `skein run` would: 3 when members were lost or there is no result; 1 when the recording or a table is
+///   damaged.
 /// @throws InputError when there is neither a server's report nor a part, or the scenario is not known on this machine.
 int merge_reports(const MergeOptions& options, const Console& console);
 

@@ -20,8 +20,8 @@ std::multiset<std::string> kinds_in(const std::vector<Fault>& faults) {
   return kinds;
 }
 
-/// How long a mission must go on after its last fault, so that this property can be evaluated [s]. nullopt: it does not
-/// matter, as for a collision, which counts whenever it happens; a property with a deadline needs the time.
+/// How long a mission must go on after its last fault, so that this property can be evaluated [s]. nullopt: the property
+/// may be evaluated at any time, as for a collision; a property with a deadline after the faults needs the time.
 std::optional<double> after_s(const std::string& property, const HuntPlan& plan) {
   using When = properties::Property::Kind;
   const properties::PropertySet set = properties::parse_properties(plan.entries, plan.fleet.scenario);
@@ -134,7 +134,7 @@ std::optional<Find> Finds::made_before(const Find& find, const std::string& of) 
   return std::nullopt;
 }
 
-/// Flies a find from a run in one process again over DDS. If the runs differ, the find becomes one of kSameDigest.
+/// Flies a find of a hunt in one process again over DDS. If the two runs differ, the find becomes one of kSameDigest.
 void Finds::confirm(Find& find, const TrialOutcome& outcome) {
   if (!plan_.one_process) return;
   Trial trial = find.trial;

@@ -10,7 +10,7 @@
 namespace skein::cli {
 namespace {
 
-// Somebody may delete or change the scenario after the hunt has read it and before a case flies.
+// A user may delete or change the scenario after the hunt has read it and before a case flies.
 TEST(FlightsOfTrials, AScenarioThatCannotBeReadAnyMoreHasNoFindings) {
   FakePrograms programs;
   const ScratchDir folder;

@@ -67,8 +67,8 @@ std::vector<fs::path> HuntLog::keep_finds(const fs::path& dir) {
   if (!fs::exists(dir / kFindsFolder) || fs::is_empty(dir / kFindsFolder)) return capsules;
   const fs::path kept = kept_folder(dir);
   fs::create_directories(kept);
-  // Whatever happens in between, the finds are in one place with their log and their settings: these are copied before,
-  // and the originals stay until all finds have moved.
+  // Log and settings are copied before the finds move, and the originals stay until then. So the finds are always in
+  // one place with their log and settings, even if the launcher is killed in between.
   for (const char* name : {kLogFile, kSettingsFile}) {
     if (fs::exists(dir / name)) fs::copy_file(dir / name, kept / name, fs::copy_options::overwrite_existing);
   }

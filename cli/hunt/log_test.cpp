@@ -65,12 +65,12 @@ class HuntLogFile : public testing::Test {
   std::string text_;
 };
 
-TEST_F(HuntLogFile, ALogResumesWithTheCasesThatWereFlown) {
+TEST_F(HuntLogFile, AHuntResumesWithTheCasesInItsLog) {
   EXPECT_EQ(cases(), kCases);
   EXPECT_EQ(read_text(file_), text_);
 }
 
-TEST_F(HuntLogFile, ALogDropsOnlyTheCaseThatAKillCutOff) {
+TEST_F(HuntLogFile, AHuntDropsOnlyTheIncompleteLastLineOfItsLog) {
   const std::size_t begin_of_last = text_.rfind('\n', text_.size() - 2) + 1;
   for (std::size_t size = begin_of_last; size < text_.size(); ++size) {
     write_text(file_, text_.substr(0, size));

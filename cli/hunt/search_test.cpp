@@ -1,5 +1,5 @@
-// A search draws each case from the seed and results that are old enough, whichever newer ones are known. It varies
-// cases that reached new states or came close to a failure.
+// A search draws each case from the seed and from results that are old enough; newer results have no influence. It
+// varies cases that reached new states or came close to a failure.
 #include "cli/hunt/search.hpp"
 
 #include <gtest/gtest.h>

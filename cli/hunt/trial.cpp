@@ -116,7 +116,7 @@ std::set<std::string> kinds_in_force(const std::vector<Fault>& faults, const Tri
   for (std::size_t i = 0; i < faults.size() && i < outcome.began_s.size(); ++i) {
     const auto begin_s = outcome.began_s[i];
     if (!begin_s || time_s < *begin_s) continue;
-    // A fault that waited ends at the earlier of the two.
+    // A fault that waited for a condition ends at the earlier of until_s and begin_s + for_s.
     const double end_s = std::min(faults[i].until_s.value_or(1e9), *begin_s + faults[i].for_s.value_or(1e9));
     if (time_s < end_s) kinds.insert(fault_kind(faults[i]));
   }

@@ -14,7 +14,7 @@ namespace {
 
 /// Data sheets of inspection UAVs allow 12 to 15 m/s (docs/conditions.md).
 constexpr double kWithstood_mps = 12.0, kLeastGust_mps = 2.0;
-/// Share of the charge that a battery keeps: the usual reserve, and what a way home costs.
+/// Share of the charge that a battery keeps: the usual reserve, and the charge for the flight home.
 constexpr double kLeastCharge = 0.4;
 
 /// Parts of the conditions that a drawn fault changes.

@@ -1,5 +1,5 @@
 // Drawn faults of the conditions (docs/conditions.md): gusts, a lost position fix, a battery that loses charge, weather
-// that turns. They exist only under conditions of which the run has the part that they change.
+// that turns. A run can have such a fault only if the part that the fault changes is on in the run's conditions.
 // The same stream draws the same faults. Pure; any thread.
 #pragma once
 
@@ -17,7 +17,7 @@ bool is_possible(const std::string& kind, const ConditionsConfig& conditions);
 bool is_possible(const Fault& fault, const ConditionsConfig& conditions);
 
 /// Draws a fault of a kind that is_possible(): "gust", "fix_loss", "battery_loss" or "conditions". Vehicles withstand
-/// it: mean wind and gust together stay below 12 m/s, and a battery keeps enough charge for a way home.
+/// the fault: mean wind and gust together stay below 12 m/s, and a battery keeps enough charge to fly home.
 FaultAction weather_fault(const std::string& kind, const std::string& uav, const ConditionsConfig& conditions,
                           RandomStream& draw);
 

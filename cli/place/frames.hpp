@@ -1,6 +1,6 @@
 // The protocol between the launcher and the processes that start programs for it on other hosts, over any pair of byte
 // streams (ssh, srun). A frame is a line of JSON; if that has a positive "bytes", as many bytes and an end of line
-// follow. A host begins with the line kHostGreeting: what a login shell prints before it is skipped.
+// follow. A host begins with the line kHostGreeting; the launcher skips the lines that a login shell prints before it.
 // Pure; an object belongs to one thread.
 #pragma once
 
