@@ -20,8 +20,8 @@ std::multiset<std::string> kinds_in(const std::vector<Fault>& faults) {
   return kinds;
 }
 
-/// How long a mission must go on after its last fault, so that this property can be evaluated [s]. nullopt: the property
-/// may be evaluated at any time, as for a collision; a property with a deadline after the faults needs the time.
+/// How long a mission must go on after its last fault, so that this property can be evaluated [s]. nullopt: the
+/// property may be evaluated at any time, as for a collision; one with a deadline after the faults needs the time.
 std::optional<double> after_s(const std::string& property, const HuntPlan& plan) {
   using When = properties::Property::Kind;
   const properties::PropertySet set = properties::parse_properties(plan.entries, plan.fleet.scenario);

@@ -79,7 +79,7 @@ class Proposals {
 
  private:
   void propose(const std::string& what, Trial trial) {
-    // `skein check` refuses a fault in whose time no exchange begins. Rounded times may make one.
+    // `skein check` refuses a fault in whose time no exchange begins. Rounding of times can make such a fault.
     if (!std::ranges::all_of(trial.faults, [&](const Fault& fault) { return has_exchange(fault, scenario_); })) return;
     trial.faults = without_contradictions(std::move(trial.faults));
     if (identity(trial) != identity(trial_)) proposals_.push_back({what, std::move(trial)});
@@ -130,7 +130,8 @@ class Proposals {
     }
   }
 
-  /// Never ends before the failure has been seen, or before the time that the property needs after the last fault.
+  /// The mission never ends before the failure has been seen, or before the time that the property needs after the last
+  /// fault.
   void shorter_mission() {
     double healed_s = 0.0;
     for (const Fault& fault : trial_.faults) healed_s = std::max(healed_s, fault.until_s.value_or(fault.at_s));
@@ -292,7 +293,7 @@ Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string
         batch.push_back(proposals[i].trial);
       }
       const std::vector<TrialOutcome> outcomes = fly(batch);
-      for (std::size_t i = 0; i < batch.size() && !smaller && best.flights < options.most; ++i) {  // as one by one
+      for (std::size_t i = 0; i < batch.size() && !smaller && best.flights < options.most; ++i) {  // as if they flew singly
         ++best.flights;
         tried.insert(identity(batch[i]));
         if (!outcomes[i].fails(property)) {

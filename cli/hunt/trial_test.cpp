@@ -23,7 +23,7 @@ class QuietMission final : public properties::RunSignals {
   const std::vector<double> none_ = std::vector<double>(401, 0.0), all_ = std::vector<double>(401, 1.0);
 };
 
-TEST(StatesOfATrial, AFaultThatWaitedEndsWhenItEndedInTheFlight) {
+TEST(StatesOfATrial, AWaitingFaultIsInForceAsLongAsInTheFlight) {
   Scenario scenario;
   for (const char* name : {"a", "b"}) scenario.fleet.emplace_back().name = name;
   QuietMission mission;

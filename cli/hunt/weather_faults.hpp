@@ -17,7 +17,8 @@ bool is_possible(const std::string& kind, const ConditionsConfig& conditions);
 bool is_possible(const Fault& fault, const ConditionsConfig& conditions);
 
 /// Draws a fault of a kind that is_possible(): "gust", "fix_loss", "battery_loss" or "conditions". Vehicles withstand
-/// the fault: mean wind and gust together stay below 12 m/s, and a battery keeps enough charge to fly home.
+/// the fault: mean wind and gust together stay below 12 m/s (in stronger wind, a gust stays below 2 m/s), and a battery
+/// keeps enough charge to fly home.
 FaultAction weather_fault(const std::string& kind, const std::string& uav, const ConditionsConfig& conditions,
                           RandomStream& draw);
 

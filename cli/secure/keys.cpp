@@ -63,7 +63,7 @@ void add_extension(X509* certificate, int kind, const char* value) {
   must(extension && X509_add_ext(certificate, extension.get(), -1) == 1, "extend a certificate");
 }
 
-/// In this order, since RFC 2253 prints the last part first.
+/// Adds the parts in reverse order, since RFC 2253 prints the last part first.
 void set_name(X509_NAME* subject, const std::string& name) {
   const auto add = [&](const char* part, const std::string& value) {
     must(X509_NAME_add_entry_by_txt(subject, part, MBSTRING_UTF8, reinterpret_cast<const unsigned char*>(value.data()),

@@ -42,7 +42,7 @@ TEST_F(SecurityRules, AnAgentWritesOnlyInItsOwnDomainAndOnlyForItself) {
   EXPECT_TRUE(may_publish(rights, "rt/some/radio_topic"));
 }
 
-TEST_F(SecurityRules, OnlyTheStationWritesTheScoreAndNoPlayerReadsTheIndices) {
+TEST_F(SecurityRules, OnlyTheStationWritesTheScoreAndNoAgentReadsThePointIndices) {
   const auto may_read = [](const Rights& rights, const std::string& topic) {
     return std::ranges::find(rights.not_read, topic) == rights.not_read.end();
   };
