@@ -293,7 +293,7 @@ Shrunk shrink(const Trial& trial, const TrialOutcome& outcome, const std::string
         batch.push_back(proposals[i].trial);
       }
       const std::vector<TrialOutcome> outcomes = fly(batch);
-      for (std::size_t i = 0; i < batch.size() && !smaller && best.flights < options.most; ++i) {  // as if they flew singly
+      for (std::size_t i = 0; i < batch.size() && !smaller && best.flights < options.most; ++i) {  // as if singly
         ++best.flights;
         tried.insert(identity(batch[i]));
         if (!outcomes[i].fails(property)) {

@@ -28,8 +28,8 @@ struct PlannerPair {
   std::vector<double> values() const;
 };
 
-/// Figure: distance of a score from the planner's median score in the scene, in percent of that median. A greater one
-/// means more widely spread scores.
+/// Figure: distance of a score from the planner's median score in the scene, in percent of that median. The greater it
+/// is, the more widely the scores are spread.
 inline constexpr const char* kDeviation = "score_deviation_percent";
 
 /// Scores of all pairs in each scene; then, if there are several scenes, sums of scores over all scenes.

@@ -35,7 +35,7 @@ class Worlds : public testing::Test {
   Study study_;
 };
 
-TEST_F(Worlds, TheWorstFlightsFailedThenCollidedThenFrozeThenHadTheLeastShare) {
+TEST_F(Worlds, WorstFlightsAreOrderedByFailureCollisionsFrozenUavsAndShare) {
   add(0, 80.0);
   add(0, 3.0);
   add(0, 50.0, 0, 1);

@@ -53,7 +53,8 @@ class SweepController {
   /// Flights of finished units whose results are missing or damaged, by index, each with what is wrong. Reads the
   /// results of all finished units.
   std::map<std::size_t, std::string> lost() const;
-  /// Calls `take` with the result of each flight that is over, in no particular order. Believes finished units.
+  /// Calls `take` with the result of each flight that is over, in no particular order. Takes the flights of finished
+  /// units from the units' records, without reading their results again.
   void collect(const std::function<void(SweepRow row)>& take) const;
 
   const SweepSettings& settings() const { return settings_; }
