@@ -41,9 +41,9 @@ class Sweep {
   } catch (const Killed&) {
     return false;
   }
-  /// Ends all random failures of engine and disks, and runs two controllers to their end. Why two: a worker that
-  /// outlived its controller may have lost a flight to a full disk. Now its reference flight succeeds, so it records
-  /// the flight as failed, and only the second controller has this flight flown again.
+  /// Ends all random failures of engine and disks, and runs two controllers to their end. Two are needed: a worker
+  /// that outlived its controller may have lost a flight to a full disk. Now its reference flight succeeds, so it
+  /// records the flight as failed, and only the second controller has this flight flown again.
   void end_well() {
     engine.manners = {};
     for (MadeUpNode& node : nodes) {
@@ -174,7 +174,7 @@ TEST(SweepController, ACheckGoesToAnotherNodeAtOnce) {
 
 // The node that flew a flight first must not fly its check, and all other nodes have died. The engine says so once, and
 // this machine repeats the flight.
-TEST(SweepController, ACheckForWhichNoNodeIsLeftIsFlownHere) {
+TEST(SweepController, ThisMachineFliesACheckForWhichNoOtherNodeIsLeft) {
   std::size_t gone = 0;
   for (std::uint64_t order = 1; order <= 30; ++order) {
     SCOPED_TRACE("order " + std::to_string(order));
@@ -232,7 +232,7 @@ TEST(SweepController, IfOneFlightOfANodeDiffersElsewhereNoneOfItsFlightsCounts) 
   EXPECT_GT(found, 5);
 }
 
-TEST(SweepController, ASweepWhoseNodesFlyNothingEndsAndNamesTheMissingFlights) {
+TEST(SweepController, ASweepWhoseNodesFlyNothingEndsAndCanBeContinued) {
   std::vector<MadeUpNode> nodes = {{"full"}};
   nodes[0].disk_fills = 1.0;
   Sweep sweep(3, 6, 2, nodes);

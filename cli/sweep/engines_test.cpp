@@ -1,4 +1,4 @@
-// The arguments that a node gets with the unit that it flies.
+// The number of threads that a node gives the unit that it flies.
 #include "cli/sweep/engines.hpp"
 
 #include <gtest/gtest.h>

@@ -90,7 +90,7 @@ class SweepFolder {
   /// The message for the user that says why settings() returned nullopt.
   std::string why_no_settings() const;
   /// Begins a sweep, and deletes the files of an earlier one. The results folders of its flights stay.
-  /// @param nodes_stay  keep nodes/ and quarantine/, since the reference flight is the same. @param unit  gives a unit
+  /// @param nodes_stay  keep nodes/ and quarantine/, since the reference flight is the same. @param unit  makes a unit
   void begin(const SweepSettings& settings, bool nodes_stay,
              const std::function<SweepUnit(std::size_t number)>& unit) const;
   /// Writes sweep.json. In a running sweep only `command` and `working_folder` may change.
