@@ -18,7 +18,7 @@
 namespace skein {
 namespace {
 
-/// Far above any file of ours; keeps a hostile file from eating the memory.
+/// Far above the size of any file of Skein. The limit keeps a hostile file from exhausting the memory.
 constexpr std::uintmax_t kMostBytes = 16u << 20;
 constexpr std::size_t kDeepest = 32;
 constexpr std::size_t kLongestKey = 200;
@@ -42,7 +42,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     if (anchor != 0) refuse_anchor(mark);
     ConfigNode node;
-    // yaml-cpp gives the mark of the token that follows, which may stand many lines below: a key's line is its own.
+    // yaml-cpp gives the mark of the next token, which may be many lines below. So an empty value takes its key's line.
     const bool has_key = !stack_.empty() && stack_.back().has_key;
     node.line = has_key ? stack_.back().node.key_lines.back() : mark.line + 1;
     accept(std::move(node));
@@ -78,7 +78,7 @@ class TreeBuilder final : public YAML::EventHandler {
   struct Open {
     ConfigNode node;
     bool has_key = false;
-    std::unordered_map<std::string, int> lines{};  ///< of a map, by key: where it stands
+    std::unordered_map<std::string, int> lines{};  ///< of a map: the line of each key
   };
 
   [[noreturn]] void fail(int line, const std::string& message) const {
@@ -144,7 +144,7 @@ class TreeBuilder final : public YAML::EventHandler {
   ConfigNode root_;
 };
 
-/// Refuses whatever follows the first document.
+/// Refuses everything after the first document.
 class NothingMore final : public YAML::EventHandler {
  public:
   explicit NothingMore(const std::string& origin) : origin_(origin) {}
@@ -167,7 +167,7 @@ class NothingMore final : public YAML::EventHandler {
   const std::string& origin_;
 };
 
-/// yaml-cpp would replace the bytes without a word: a name would become another one.
+/// yaml-cpp would silently replace invalid bytes, so that a name would become a different name.
 void refuse_other_encodings(const std::string& text, const std::string& origin) {
   if (is_utf8(text)) return;
   std::istringstream lines(text);
@@ -177,7 +177,7 @@ void refuse_other_encodings(const std::string& text, const std::string& origin) 
   throw InputError(place(origin, number) + ": not in UTF-8; convert the file, for example with iconv");
 }
 
-/// yaml-cpp takes some control characters for its own marks.
+/// yaml-cpp would mistake some control characters for its own marks.
 void refuse_binary(const std::string& text, const std::string& origin) {
   int line = 1;
   for (const char c : text) {
@@ -196,7 +196,8 @@ bool is_plain_word(const std::string& text) {
   return text != "---" && text != "..." && std::all_of(text.begin(), text.end(), plain);
 }
 
-/// Quotes texts that are not plain words, and `quoted` ones, which a reader would take for another kind of value.
+/// Quotes texts that are not plain words. Also quotes `quoted` texts, because a reader would take them for another kind
+/// of value.
 void emit_scalar(YAML::Emitter& out, const std::string& text, bool quoted) {
   if (quoted || !is_plain_word(text)) out << YAML::DoubleQuoted;
   out << text;
@@ -206,7 +207,7 @@ bool is_leaf(const ConfigNode& node) {
   return node.kind == ConfigNode::Kind::scalar || node.kind == ConfigNode::Kind::null;
 }
 
-/// A list of leaves stands on one line, and so does what is empty.
+/// Prints a list of leaves, and an empty list or map, on one line.
 void emit(YAML::Emitter& out, const ConfigNode& node) {
   switch (node.kind) {
     case ConfigNode::Kind::null:
@@ -285,8 +286,8 @@ void ConfigNode::remove(std::string_view key) {
   keys.erase(found);
 }
 
-// YAML changes nothing but blanks on its way from the text to the scalar (escapes aside), so that the letters between
-// them are counted in both.
+// Apart from escapes, a scalar differs from the file's text only in its blanks. So the function counts the characters
+// that are not blank: their number is the same in both.
 ConfigPlace place_in(const ConfigDocument& document, const ConfigNode& scalar, std::size_t at) {
   const std::string& text = document.text;
   const auto is_blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };

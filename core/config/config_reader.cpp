@@ -197,7 +197,7 @@ bool expect_numbers(const Place& place, std::size_t count) {
 }
 
 bool expect_map(const Place& place) {
-  // An empty file is a map without keys: what it lacks is said better than what it is.
+  // An empty file is read as a map without keys, so that the errors name the missing keys.
   const bool empty_document = place.path.empty() && place.node.kind == ConfigNode::Kind::null;
   if (place.node.kind == ConfigNode::Kind::map || empty_document) return true;
   place.refuse("a map of keys");

@@ -70,7 +70,7 @@ std::optional<ConfigNode> ConfigWriter::node_of(const T& value) {
     return list;
   } else {
     ConfigWriter writer;
-    T copy = value;  // describe() serves reading too and so takes no const
+    T copy = value;  // describe() also reads into the struct, so it takes no const reference
     config_detail::call_describe(writer, copy);
     return writer.take();
   }

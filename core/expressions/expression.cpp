@@ -12,21 +12,21 @@ using Op = Expression::Op;
 Instant at_anchor(const Instant& instant) { return {instant.anchor, instant.anchor, instant.anchor}; }
 Instant one_earlier(const Instant& instant) { return {instant.before, instant.before, instant.anchor}; }
 
-/// @param distance  above 0 on the side where it holds.
+/// @param distance  from the value at which the condition changes; positive on the side where the condition holds
 Margin compared(bool holds, double distance) { return std::isnan(distance) ? kUndefined : Margin{holds, distance}; }
 
 double quotient(double a, double b) { return b == 0.0 ? std::numeric_limits<double>::quiet_NaN() : a / b; }
 
-/// @param choose  std::min or std::max, which lose an undefined number.
+/// @param choose  std::min or std::max, whose result may be a number although the other one is undefined (NaN)
 double chosen(double a, double b, const auto& choose) { return std::isnan(a) || std::isnan(b) ? a + b : choose(a, b); }
 
-/// Numbers that are equal, infinite ones too, are no way apart.
+/// The difference of equal infinite numbers is 0 here, not NaN.
 double difference(double a, double b) { return a == b ? 0.0 : a - b; }
 
-/// Whether it is true by itself, or undefined.
+/// The truth value of a condition, without its distance from changing.
 Margin truth(const Margin& margin) { return margin.is_defined ? certain(margin.holds) : kUndefined; }
 
-/// Whether a number is more than another, or a condition true where it was not.
+/// Whether a number is greater at `to` than at `from`, or a condition is false at `from` and true at `to`.
 Margin rises_between(const Expression& part, const Instant& from, const Instant& to) {
   if (part.is_condition) return truth(both(opposite(truth(margin_at(part, from))), truth(margin_at(part, to))));
   const double before = number_at(part, from), now = number_at(part, to);

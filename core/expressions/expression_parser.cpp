@@ -27,7 +27,7 @@ void expect_condition(const Expression& part, const std::string& where) {
   ExpressionParser::fail(part.at, where + " must be a condition, and this is a number; compare it: '... > 0'");
 }
 
-/// A number that is written without a unit, where one is wanted, is the usual slip.
+/// The message has a hint for the most common mistake, a number without its unit.
 void expect_same_unit(const Expression& a, const Expression& b) {
   if (a.unit == b.unit) return;
   std::string message = "units do not fit: the left side is " + of_unit(a.unit) + ", the right side " + of_unit(b.unit);
@@ -59,7 +59,7 @@ struct Comparison {
   std::string_view mark;
   Op op;
 };
-/// The longer ones first.
+/// Longer marks come first, because a search for "<" would also match "<=".
 constexpr std::array kComparisons = {Comparison{"<=", Op::at_most}, Comparison{">=", Op::at_least},
                                      Comparison{"==", Op::equal},   Comparison{"!=", Op::unequal},
                                      Comparison{"<", Op::less},     Comparison{">", Op::more}};
@@ -95,7 +95,7 @@ Expression ExpressionParser::disjunction() {
   return left;
 }
 
-/// Hostile files nest a thousand times.
+/// Limits the depth, because the parser is recursive and a hostile file could overflow its stack.
 Expression ExpressionParser::nested(Expression (ExpressionParser::*part)()) {
   if (++depth_ > kDeepestPart) fail(at(), "nested too deeply");
   Expression inside = (this->*part)();
@@ -240,7 +240,7 @@ Expression ExpressionParser::signal(std::size_t at, const std::string& name) {
   const SignalInfo& info = signal_named(at, name);
   SignalUse use{&info, {}};
   if (accept_mark("(")) {
-    std::string_view before;  // as written: a variable may happen to stand for the UAV that is named beside it
+    std::string_view before;  // as written, because a variable may happen to stand for the UAV of the other argument
     do {
       if (use.arguments.size() == info.arguments.size()) {
         fail(this->at(), "too many names: the signal is " + info.text());

@@ -70,7 +70,7 @@ TEST_F(Expressions, AMarginIsTheDistanceToTheOppositeTruth) {
   EXPECT_EQ(margin("not alive(changi)", 1.0).margin, -INFINITY);
 }
 
-/// Conditions of random comparisons, each with its negation, which is written without `not`.
+/// A random condition and its opposite, which has opposite comparisons instead of a `not` around the condition.
 struct Drawn {
   std::string text, opposite;
 };
@@ -107,7 +107,7 @@ TEST_F(Expressions, TheSignOfAMarginIsTheTruthAndANegationChangesTheSign) {
   EXPECT_GT(decided, 500);
 }
 
-// Nothing that moves a signal by less than the margin changes the truth.
+// A change of the signals by less than the margin cannot change the truth value.
 TEST_F(Expressions, AChangeBelowTheMarginKeepsTheTruth) {
   std::mt19937_64 random(2);
   for (int round = 0; round < 2000; ++round) {
@@ -208,7 +208,7 @@ TEST_F(Expressions, WrongExpressionsAreRefusedWithTheColumn) {
   refused(std::string(500, '(') + "1", 65, "nested too deeply");
 }
 
-/// A chain is a tree as deep as the chain is long; a longer one would overflow the stack.
+/// The tree of a chain of operators is as deep as the chain is long. A very deep tree would overflow the stack.
 TEST_F(Expressions, LongChainsAreReadAndLongerOnesRefused) {
   const auto chain = [](const std::string& link, std::size_t letters) {
     std::string text = "held > 1";

@@ -10,7 +10,8 @@
 namespace skein {
 namespace {
 
-/// Values that are drawn, sized or told to programs when a run begins.
+/// Keys that a fault cannot change, because they are used only when a run begins: for random draws, to choose sizes, or
+/// in the messages that tell programs the conditions.
 constexpr std::array kFixedKeys = {std::pair("wind", "from_deg"),         std::pair("odometry", "bias_sigma_m"),
                                    std::pair("odometry", "latency_s"),    std::pair("odometry", "mean_fix_s"),
                                    std::pair("odometry", "known_start"),  std::pair("battery", "endurance_missions"),
@@ -19,7 +20,7 @@ constexpr std::array kFixedKeys = {std::pair("wind", "from_deg"),         std::p
                                    std::pair("battery", "swap_within_m"), std::pair("radio", "decorrelation_m"),
                                    std::pair("radio", "rate_share")};
 
-/// Reads values onto conditions: a key that is absent stays.
+/// Overwrites conditions with values; an absent key keeps its value.
 void read_onto(ConditionsConfig& conditions, const ConfigNode& values, const std::string& path, ConfigErrors& errors) {
   config_detail::read_value(config_detail::Place{values, path, errors}, conditions, Bounds{});
 }
@@ -40,7 +41,7 @@ ConfigNode fixed_values(const ConditionsConfig& conditions) {
   return fixed;
 }
 
-/// A preset among the values brings a value for each key: those that cannot change stay the scenario's.
+/// A preset in `values` sets every key. So the scenario's values of kFixedKeys are restored afterwards.
 ConditionsConfig with_change(const ConditionsConfig& before, const ConfigNode& values, const ConfigNode& fixed) {
   ConditionsConfig after = before;
   const ConfigDocument document{"conditions", values};
@@ -88,7 +89,7 @@ void check_conditions_change(const ConfigNode& values, const Scenario& scenario,
   read_onto(after, values, path, errors);
   if (errors.count() > errors_before) return;
   read_onto(after, fixed_values(scenario.conditions), path, errors);
-  // These have a state that begins with the run.
+  // These parts have a state that is created when the run begins, so a fault cannot switch them on.
   const auto check_part = [&](const char* section, auto member) {
     const ConfigNode* part = values.find(section);
     const bool off = !(after.*member).on() && (part == nullptr || !sets_condition(*part));

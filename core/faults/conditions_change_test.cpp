@@ -70,7 +70,7 @@ TEST_F(ConditionsChanges, OfTwoChangesOfAValueTheLaterInTheFileWins) {
   EXPECT_EQ(at(25.0).radio.power_dbm, scenario_.conditions.radio.power_dbm);
 }
 
-TEST_F(ConditionsChanges, APresetLeavesWhatARunBeginsWith) {
+TEST_F(ConditionsChanges, APresetLeavesTheKeysThatCannotChangeDuringARun) {
   scenario_.conditions.wind.from_deg = 45.0;
   load("  - {at_s: 1, conditions: {preset: harsh}}\n");
   const ConditionsConfig now = at(2.0), harsh = conditions_preset("harsh"), &begun = scenario_.conditions;
@@ -84,7 +84,7 @@ TEST_F(ConditionsChanges, APresetLeavesWhatARunBeginsWith) {
   EXPECT_EQ(now.battery.endurance_missions, begun.battery.endurance_missions);
 }
 
-TEST_F(ConditionsChanges, AreRefusedWithTheKeyAndWhatWouldBeRight) {
+TEST_F(ConditionsChanges, AnInvalidChangeIsRefusedWithItsKeyAndTheReason) {
   refused("conditions: {}", "must have values");
   refused("conditions: {camera: {}}", "faults[0].conditions.camera: changes nothing: give at least one value");
   refused("conditions: {wind: {mean_mps: 99}}", "faults[0].conditions.wind.mean_mps: must be a number within [0, 25]");
@@ -101,7 +101,7 @@ TEST_F(ConditionsChanges, AreRefusedWithTheKeyAndWhatWouldBeRight) {
       << "both faults act at once";
 }
 
-TEST_F(ConditionsChanges, NeedTheirPartInTheScenario) {
+TEST_F(ConditionsChanges, NeedAnActiveSectionInTheScenario) {
   scenario_.conditions = conditions_preset("none");
   refused("conditions: {wind: {mean_mps: 9}}", "faults[0].conditions.wind: is off in the scenario");
   refused("conditions: {preset: harsh}", "is off in the scenario");

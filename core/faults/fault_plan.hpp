@@ -161,8 +161,8 @@ struct FaultPlan {
 
 /// Key path of a fault in its file: "faults[2]".
 std::string fault_path(std::size_t index);
-/// The kind of a fault as files spell it ("partition") and whom it concerns ("jurong", "gcs jurong | raffles"); for
-/// results and logs.
+/// The kind of a fault as files spell it ("partition"), and its target ("jurong", "gcs jurong | raffles"); for results
+/// and logs.
 std::string fault_kind(const Fault& fault);
 std::string fault_target(const Fault& fault);
 

@@ -94,7 +94,7 @@ TEST_F(FaultFile, EveryKindIsRead) {
   }
 }
 
-TEST_F(FaultFile, MayBeAFaultTestAndMayNameAnother) {
+TEST_F(FaultFile, MayBeAFaultTestAndMayNameAnotherFaultFile) {
   ::setenv("SKEIN_CONFIG_DIR", source_path("config").c_str(), 1);
   EXPECT_EQ(load("faults: [{at_s: 1, blackout: changi}]\nrun: {seed: 1}\nexpect: {}\n").faults.size(), 1u);
   const std::filesystem::path other = file_.string() + "_other.yaml";
@@ -110,7 +110,7 @@ TEST_F(FaultFile, MayBeAFaultTestAndMayNameAnother) {
   ::unsetenv("SKEIN_CONFIG_DIR");
 }
 
-TEST_F(FaultFile, ActsFromItsFirstTickToBeforeItsLast) {
+TEST_F(FaultFile, AFaultActsFromItsBeginUntilItsEnd) {
   const FaultPlan plan = load("faults: [{at_s: 10, until_s: 12.5, blackout: jurong}]");
   EXPECT_FALSE(plan.faults[0].active(ticks(10.0) - 1));
   EXPECT_TRUE(plan.faults[0].active(ticks(10.0)));
@@ -199,7 +199,7 @@ TEST_F(FaultFile, FaultsThatCanNeverActAreRefused) {
   refused("faults: [{at_s: 1, link: {from: [changi, changi], loss: 1}}]", "link.from: 'changi' is named twice");
 }
 
-TEST_F(FaultFile, TimesInARunThatWasFlownMayGoOnToItsEnd) {
+TEST_F(FaultFile, TimesInAFileByHandMayExceedTheMissionTime) {
   const double end_s = 300.0 + fleet().takeoff_timeout_s;
   const std::string late = "faults: [{at_s: 300.05, until_s: 310, blackout: changi}]";
   EXPECT_EQ(load("by_hand: true\n" + late).faults[0].begin(), ticks(300.05));

@@ -17,11 +17,11 @@ namespace {
 
 // ---- the file ---------------------------------------------------------------------------------------------------
 
-/// Times that a fault may begin or end at: one, or those between two, of which the run's seed draws one.
+/// The time at which a fault begins or ends: a fixed time, or a range from which the run's seed draws a time.
 struct TimeRange {
   double earliest_s = 0.0, latest_s = 0.0;
 
-  /// A whole number of milliseconds, unless there is nothing to draw.
+  /// The drawn time, a whole number of milliseconds. A fixed time is returned as it is.
   double drawn(std::uint64_t seed, std::size_t fault, std::uint64_t which) const {
     if (earliest_s == latest_s) return earliest_s;
     RandomStream stream(seed, "fault_time", fault, which);
@@ -29,7 +29,7 @@ struct TimeRange {
   }
 };
 
-/// `8`, or `[8, 12]`; `time` stays what it is when the key is absent.
+/// Reads `8` or `[8, 12]`. If the key is absent, `time` does not change.
 void read_time(auto& r, const std::string& key, const Bounds& bounds, std::optional<TimeRange>& time,
                bool required = false) {
   std::variant<std::string, std::array<double, 2>> given;
@@ -89,7 +89,7 @@ struct FaultEntry {
     r.field("conditions", conditions);
   }
 
-  /// As long as any seed, or its condition, can make it; and as short.
+  /// The fault with the longest duration that a seed or its condition can give it, and with the shortest.
   Fault longest(const FaultAction& action) const {
     Fault fault{earliest().earliest_s, std::nullopt, action};
     if (until_s) fault.until_s = until_s->latest_s;
@@ -143,7 +143,7 @@ struct FaultEntry {
 
 struct FaultFile {
   std::string name, description;
-  bool by_hand = false;  ///< of a run that is flown: its times may go on as long as that run may
+  bool by_hand = false;  ///< times may exceed the mission time by takeoff_timeout_s
   std::variant<std::string, std::vector<FaultEntry>> faults;  ///< a text: the file that lists them
 
   void describe(auto& r) {
@@ -154,7 +154,7 @@ struct FaultFile {
   }
 };
 
-/// Without what only `skein test --faults` looks at (cli/fault_tests/fault_test.hpp).
+/// The document without the keys that only `skein test --faults` uses (cli/fault_tests/fault_test.hpp).
 ConfigDocument without_test(ConfigDocument document) {
   for (const char* key : {"run", "expect", "properties", "capsule"}) document.root.remove(key);
   return document;
@@ -186,7 +186,8 @@ FaultCondition read_condition(const std::string& text, const SignalNames& names,
   return when;
 }
 
-/// A queue holds only what waits for a limited rate. An effect always has a size of queue, so the file is asked.
+/// Only a link with a limited rate has a queue. `queue_bytes` of a LinkEffect is never empty, so this function looks
+/// for the key in the file.
 void check_queue(const ConfigNode& fault, const std::string& path, ConfigErrors& errors) {
   const ConfigNode* link = fault.find("link");
   if (link == nullptr || link->find("queue_bytes") == nullptr) return;
@@ -199,7 +200,7 @@ std::vector<Fault> read_faults(const FaultFile& content, const ConfigDocument& d
   const auto* entries = std::get_if<std::vector<FaultEntry>>(&content.faults);
   errors.check(entries != nullptr, "faults", "must be a list of faults here: another file names this one");
   errors.throw_if_any();
-  // The mission's clock begins with the first take-off, that of the run before it.
+  // Times count from the start of the run. The mission's clock starts later, with the first takeoff.
   const double wait_s = content.by_hand ? scenario.takeoff_timeout_s : 0.0;
   FaultChecker checker(scenario, errors, scenario.duration_s + wait_s);
   const SignalNames names(scenario);

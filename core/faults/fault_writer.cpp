@@ -14,7 +14,7 @@ ConfigNode time_node(double time_s) { return ConfigNode::make_scalar(shortest(ti
 
 ConfigNode written(const auto& value) { return ConfigWriter::node_of(value).value_or(ConfigNode{}); }
 
-/// An effect without the keys that say what would be so without them.
+/// An effect without the keys that have their default values.
 ConfigNode link_node(const LinkEffect& effect) {
   const ConfigNode usual = written(LinkEffect{}), all = written(effect);
   ConfigNode node = ConfigNode::make_map();
@@ -37,7 +37,7 @@ ConfigNode action_node(const FaultAction& action) {
       action);
 }
 
-/// In quotes wherever a reader could take it for something else.
+/// The scalar, in quotes if a reader could take it for another kind of value.
 std::string flow_scalar(const ConfigNode& node) {
   const auto is_plain = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '.' || c == '-' || c == '+';

@@ -14,7 +14,8 @@ namespace skein {
 
 std::string read_file_bytes(const std::filesystem::path& file, std::uintmax_t most_bytes) {
   const auto refuse = [&](const std::string& why) { return InputError(file.string() + ": " + why); };
-  // A pipe without a writer must not block this program: it is opened without waiting, and looked at before it is read.
+  // Opening a pipe without a writer must not block this program. So the file is opened with O_NONBLOCK, and its kind is
+  // checked before it is read.
   const int fd = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   if (fd < 0) {
     const int reason = errno;

@@ -59,7 +59,7 @@ TEST_F(FileBytes, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   EXPECT_NE(complaint([&] { next_line(hole, line, folder_ / "hole"); }).find("it is not text"), std::string::npos);
 }
 
-TEST_F(FileBytes, LinesAreAsGetlineHasThem) {
+TEST_F(FileBytes, NextLineReadsTheSameLinesAsGetline) {
   for (const std::string text : {"one\n\nthree", "one\n\nthree\n", "", "\n"}) {
     std::ofstream(folder_ / "text") << text;
     std::ifstream a = open_text(folder_ / "text"), b(folder_ / "text");

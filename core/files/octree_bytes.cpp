@@ -9,7 +9,7 @@ namespace {
 constexpr int kTreeDepth = 16;
 constexpr std::int64_t kKeyOfOrigin = 1 << 15;  ///< number of the smallest cell that begins at 0
 
-/// Inner nodes are two bytes each, two bits a child, before those of their children.
+/// Each inner node has two bytes, two bits for each child. The bytes of its inner children follow.
 class OctreeWalk {
  public:
   OctreeWalk(std::string_view bytes, double cell_m, const std::function<void(const KnownCube&)>& visit)
@@ -22,7 +22,7 @@ class OctreeWalk {
   }
 
  private:
-  using Key = std::array<std::int64_t, 3>;  ///< of the lowest of its smallest cells
+  using Key = std::array<std::int64_t, 3>;  ///< of a node: the number of its lowest smallest cell, along each axis
 
   bool inner(const Key& key, int depth) {
     if (depth == kTreeDepth || bytes_.size() - at_ < 2) return false;

@@ -6,7 +6,7 @@
 
 namespace skein {
 
-// A write that stops half-way sets no errno, but the next one tells why.
+// A write that stops half-way does not set errno, so the loop calls write() again, which reports the reason.
 bool write_whole(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(fd, bytes.data(), bytes.size());

@@ -12,7 +12,8 @@
 
 namespace skein {
 
-/// Of a tail's probability P(|z| > x) in (0, 1], the table has an octave for each power of two, with equal segments.
+/// The table divides the tail probabilities P(|z| > x), from 0 to 1, into octaves, one for each power of two, and each
+/// octave into equal segments.
 class NormalTable {
  public:
   static const NormalTable& get();

@@ -23,7 +23,7 @@ TEST(NormalTable, TailsHaveTheirProbabilities) {
 }
 
 /// The test sums over a fine grid of all probabilities instead of draws, so that there is no noise.
-TEST(NormalTable, HasTheNormalsMoments) {
+TEST(NormalTable, HasTheMomentsOfTheNormalDistribution) {
   const NormalTable& normal = NormalTable::get();
   double mass = 0.0, squares = 0.0, fourths = 0.0, sixths = 0.0;
   for (int octave = 0; octave < 34; ++octave) {
@@ -43,7 +43,7 @@ TEST(NormalTable, HasTheNormalsMoments) {
   EXPECT_NEAR(sixths, 15.0, 5e-3);
 }
 
-TEST(NormalTable, DrawsHaveTheNormalsMomentsAndNoCorrelation) {
+TEST(NormalTable, DrawsHaveTheMomentsOfTheNormalDistributionAndNoCorrelation) {
   const NormalTable& normal = NormalTable::get();
   constexpr int kDraws = 1'000'000;
   double sum = 0.0, squares = 0.0, thirds = 0.0, fourths = 0.0, products = 0.0, before = 0.0;

@@ -55,7 +55,7 @@ TEST(RandomStream, UniformFillsItsInterval) {
   }
 }
 
-TEST(RandomStream, NormalHasTheNormalsMoments) {
+TEST(RandomStream, NormalDrawsHaveTheMomentsOfTheNormalDistribution) {
   RandomStream random(1, "test", 1, 0);
   constexpr int kDraws = 400000;
   double sum = 0.0, squares = 0.0, fourths = 0.0;

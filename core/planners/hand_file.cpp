@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kColumns = 8;
 constexpr const char* kHead = "step,tick,ahead,left,up,yaw_rate,gimbal_pitch_rate,gimbal_yaw_rate";
-constexpr double kMostCount = 9007199254740992.0;  ///< up to here a double tells whole numbers apart
+constexpr double kMostCount = 9007199254740992.0;  ///< a double represents all whole numbers up to this one
 
 std::optional<std::uint64_t> whole(const std::string& text) {
   const std::optional<double> number = parse_number(text);

@@ -28,7 +28,7 @@ class HandFileTest : public testing::Test {
   }
 };
 
-TEST_F(HandFileTest, NumbersComeBackToTheBit) {
+TEST_F(HandFileTest, NumbersAreReadBackBitForBit) {
   RandomStream random(7, "hand file", 0);
   std::vector<HandRow> rows;
   std::string text = hand_file::head();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kPrefix = "py:";
 
-/// As far as it can be told from parameters and files; Python has the last word.
+/// Whether a text may be the name of a class, rather than parameters or a file. Python later checks the name itself.
 bool is_class_name(const std::string& text) {
   const auto may_be_in_it = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c >= 0x80; };
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&

@@ -14,17 +14,17 @@ constexpr std::string_view kAll = "all";
 /// What a wire topic in one node's domain is already used for.
 struct Use {
   enum class Kind {
-    standard,      ///< of the table in core/topics.hpp, not the node's own to send
-    standard_own,  ///< of that table, but written by the node's own software
+    standard,      ///< topic of the table in core/topics.hpp that the node must not send
+    standard_own,  ///< topic of that table that the node's own software writes
     sent,          ///< radio topic that the node sends
     arriving,      ///< arrivals of a radio topic
   };
   Kind kind;
-  std::string ros_topic;  ///< whose arrivals
+  std::string ros_topic;  ///< also of `arriving`: the topic on which its messages are sent
   std::string type;       ///< on the wire
 };
 
-/// Nodes that a list names, ascending.
+/// The nodes that a list names, in ascending order.
 struct NodeList {
   std::vector<Node> nodes;
   bool all = false;
@@ -60,7 +60,7 @@ class RadioTable::Builder {
     reserved_ = uses_;
   }
 
-  /// @param member  who alone may send on it; empty: any program of a source
+  /// @param member  the only program that may send on the topic; empty: any program of a source
   void declare(const RadioTopicConfig& declared, const std::string& where, std::string_view member = {}) {
     where_ = scenario_.file.string() + ": " + where + ".";
     const RadioRoute checked = check_names(declared.name, declared.type);
@@ -187,7 +187,8 @@ class RadioTable::Builder {
     checked("name", [&] { return wire_topic(arrival_topic(ros_topic, longest_name_)); });
     const std::string type = checked("type", [&] { return wire_type(ros_type); });
     if (ros_topic.starts_with("/skein/")) fail("name", "names under /skein/ are Skein's own; choose another");
-    // Refused by every node, to send and to hear: UAVs would learn what they did not see, and what a point is called.
+    // No node may send or receive the score by radio: it would tell UAVs which points they have not seen, and the
+    // numbers of all points.
     if (std::ranges::find(topics::score_topics(), ros_topic, &topics::TopicInfo::pattern) !=
         topics::score_topics().end()) {
       fail("name", "'" + ros_topic + "' is the station's own and never goes on the radio; choose another");
@@ -292,7 +293,7 @@ class RadioTable::Builder {
 
   const Scenario& scenario_;
   std::string longest_name_;                          ///< of a node
-  std::string where_;                                 ///< what is being read: prefix of messages
+  std::string where_;                                 ///< prefix of messages: the file and key that are being read
   std::map<std::string, std::string> types_;          ///< ROS topic to ROS type
   std::vector<std::map<std::string, Use>> uses_;      ///< by node: wire topic to its use
   std::vector<std::map<std::string, Use>> reserved_;  ///< likewise, of the standard topics alone

@@ -96,7 +96,7 @@ TEST(RadioRoutes, AllMeansEveryOtherNode) {
             (std::vector<std::string>{"rt/broadcast/gcs", "rt/broadcast/jurong", "rt/broadcast/sentosa"}));
 }
 
-TEST(RadioRoutes, AllSourcesLeavesOutTheOnlyTarget) {
+TEST(RadioRoutes, AllSourcesDoesNotIncludeTheOnlyTarget) {
   Scenario scenario = three_uavs();
   scenario.radio = {{"/status", "std_msgs/msg/String", {"all"}, {"gcs"}}};
   const std::vector<RadioRoute> routes = routes_of(scenario, "/status");
@@ -104,7 +104,7 @@ TEST(RadioRoutes, AllSourcesLeavesOutTheOnlyTarget) {
   EXPECT_EQ(routes[0].source, node_of_uav(UavIndex{0}));
 }
 
-TEST(RadioRoutes, OneTopicMayHaveOtherTargetsForOtherSources) {
+TEST(RadioRoutes, ATopicMayHaveDifferentTargetsForEachSource) {
   Scenario scenario = three_uavs();
   scenario.radio = {{"/x", "std_msgs/msg/String", {"jurong"}, {"gcs"}},
                     {"/x", "std_msgs/msg/String", {"sentosa", "raffles"}, {"gcs", "jurong"}}};
@@ -129,7 +129,7 @@ TEST(RadioRoutes, TheScoreNeverGoesOnTheRadio) {
       << "without the station's prefix the name is free";
 }
 
-TEST(RadioRoutes, NothingArrivesUnderTheNameOfTheScore) {
+TEST(RadioRoutes, ATopicThatWouldArriveUnderTheNameOfTheScoreIsRefused) {
   Scenario scenario = three_uavs();
   scenario.fleet[0].name = "score";  // "/gcs" arrives there as "/gcs/score"
   scenario.radio = {{"/gcs", "sensor_msgs/msg/PointCloud", {"gcs"}, {"score"}}};
@@ -145,7 +145,7 @@ struct BadDeclaration {
 
 class BadRadioTopics : public testing::TestWithParam<BadDeclaration> {};
 
-TEST_P(BadRadioTopics, AreRefusedByFileAndKey) {
+TEST_P(BadRadioTopics, AreRefusedWithFileAndKey) {
   const std::string message = routes_complaint(GetParam().declared);
   EXPECT_TRUE(message.starts_with("towers.yaml: ")) << message;
   EXPECT_NE(message.find(GetParam().key), std::string::npos) << message;

@@ -18,7 +18,7 @@ constexpr std::array<EnumName<Phase>, 3> enum_names(Phase) {
 
 enum class RunStatus {
   completed,
-  no_takeoff,   ///< no UAV took off before the time-out
+  no_takeoff,   ///< no UAV took off before the timeout
   interrupted,  ///< ended by the user
   aborted       ///< ended prematurely: its results are not reliable
 };

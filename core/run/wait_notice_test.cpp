@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::seconds;
 
-TEST(WaitNotice, SpeaksAfterFiveSecondsAndThenLessAndLessOften) {
+TEST(WaitNotice, IsDueAfterFiveSecondsAndThenLessAndLessOften) {
   const WaitNotice::Clock::time_point start{};
   WaitNotice notice(start);
   std::vector<double> told;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kLeast = 1.0 - 1e-9;  ///< amounts are sums of rounded numbers
 
-/// The open seconds of one UAV as they go by.
+/// Counts the latest open seconds of one UAV in which it did less than a least amount of work.
 class OpenSeconds {
  public:
   void begin_anew() {
@@ -20,13 +20,14 @@ class OpenSeconds {
   }
   void pass() { ++open_; }
 
-  /// How many have gone by since as much was done as a least amount: 0 where that was in the present one.
+  /// Length of the longest stretch of open seconds up to now with less than a least amount of work; 0 if the current
+  /// second has that much.
   std::size_t without_work() {
     double sum = 0.0;
     for (auto one = worked_.rbegin(); one != worked_.rend(); ++one) {
       sum += one->done;
       if (sum < kLeast) continue;
-      worked_.erase(worked_.begin(), std::prev(one.base()));  // what is older does not matter any more
+      worked_.erase(worked_.begin(), std::prev(one.base()));  // older work is not needed any more
       return open_ - worked_.front().at;
     }
     return open_;
@@ -45,10 +46,10 @@ bool counts(const WorkTrack& track, const WorkTime& time, std::size_t second) {
   return track.open[second] == WorkTrack::kOpen && !time.seconds[second].excused;
 }
 
-/// Fills in all but what is excused, which is known.
+/// Computes all values of `time` except the excused seconds, which the caller has set.
 void measure(const WorkTrack& track, WorkTime& time) {
   OpenSeconds seconds;
-  std::vector<std::size_t> window;  // open seconds of this life
+  std::vector<std::size_t> window;  // open seconds since the UAV was last away
   time.frozen_s = time.longest_s = 0;
   for (std::size_t s = 0; s < time.seconds.size(); ++s) {
     WorkSecond& second = time.seconds[s];
@@ -74,8 +75,8 @@ void measure(const WorkTrack& track, WorkTime& time) {
   for (const WorkSecond& second : time.seconds) time.frozen_s += second.frozen;
 }
 
-/// By second: whether a UAV works, which is not an excuse of its own: some 60 s about it hold a least amount, and it is
-/// not without work.
+/// By second: whether the UAV works, so that another UAV may wait for it. It works in a second if this second is not
+/// frozen, and any 60 s that contain the second have a least amount of work.
 std::vector<bool> working(const WorkTrack& track, const WorkTime& time) {
   const std::size_t count = time.seconds.size();
   std::vector<bool> works(count, false);
@@ -94,7 +95,7 @@ std::vector<bool> working(const WorkTrack& track, const WorkTime& time) {
 void note_waits(const std::vector<WaitSpan>& spans, std::size_t uavs, std::size_t uav, WorkTime& time) {
   for (const WaitSpan& span : spans) {
     if (span.mate >= uavs || span.mate == uav) continue;
-    // A second is waited if its middle is.
+    // The UAV waits in a second if the span contains the middle of the second.
     const double from_s = std::clamp(span.from_s - 0.5, 0.0, static_cast<double>(time.seconds.size()));
     for (auto s = static_cast<std::size_t>(from_s); s < time.seconds.size(); ++s) {
       const double middle_s = static_cast<double>(s) + 0.5;
@@ -106,7 +107,7 @@ void note_waits(const std::vector<WaitSpan>& spans, std::size_t uavs, std::size_
 
 void excuse(const WorkTrack& track, const std::vector<std::vector<bool>>& works, WorkTime& time) {
   std::size_t left = kMostExcused_s;
-  double done = 0.0;  // since it had all of that
+  double done = 0.0;  // work since `left` was last reset
   for (std::size_t s = 0; s < time.seconds.size(); ++s) {
     done += track.done[s];
     if (done >= kLeast || track.open[s] == WorkTrack::kAway) {

@@ -37,7 +37,7 @@ struct WaitSpan {
 struct WorkSecond {
   bool excused = false;          ///< open, but the UAV waited for another UAV that worked
   bool frozen = false;           ///< one of 60 open seconds with less than one least amount of work
-  std::size_t without_work = 0;  ///< number of open seconds since the UAV last completed a least amount of work
+  std::size_t without_work = 0;  ///< number of latest open seconds that have less than one least amount of work
   std::optional<std::size_t> waits_for;
 };
 

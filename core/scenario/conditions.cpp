@@ -81,7 +81,7 @@ void check_preset(const std::string& preset) {
   }
 }
 
-/// The preset that a section is, or "own".
+/// The preset whose values a section has, or "own".
 template <class T>
 std::string section_text(const T& section, T ConditionsConfig::*member) {
   const ConditionsConfig preset = conditions_preset(section.preset);
@@ -110,7 +110,7 @@ std::vector<std::string> condition_sections() {
 ConditionsConfig chosen_conditions(const std::string& text, const ConditionsConfig& base) {
   ConditionsConfig chosen = base;
   std::string parts = text;
-  std::ranges::replace(parts, '+', ',');  // in a list of presets, a comma stands between two of them
+  std::ranges::replace(parts, '+', ',');  // a list of presets needs '+', because its commas separate the presets
   std::set<std::string> named;
   for (const std::string& part : split(parts)) {
     const std::size_t equals = part.find('=');

@@ -47,7 +47,7 @@ void check_section(const SwitchedSection& section, const ConfigNode& given, cons
   const auto is_given = [&](const std::string& key) { return given.find(key) != nullptr; };
   if (std::ranges::any_of(section.switches, is_given)) return;
   for (const std::string& key : given.keys) {
-    // Exported scenarios have all keys, also those of what is off, with their usual values.
+    // Exported scenarios have all keys, also those of sections that are off, with their default values.
     if (acts_alone(key) || text_of(now.find(key)) == text_of(off.find(key))) continue;
     errors.check(false, std::string("conditions.") + section.name + "." + key, section.advice);
   }
@@ -61,7 +61,7 @@ void check_conditions(const ConfigDocument& document, const ConditionsConfig& co
                       ConfigErrors& errors) {
   const ConfigNode* given = document.root.find("conditions");
   if (given == nullptr) return;
-  // A preset's latency may be no exchange where these are long.
+  // If exchanges are long, the latency of a preset may be rounded to 0 exchanges.
   const double latency_s = conditions.odometry.latency_s;
   const bool is_preset = latency_s == conditions_preset(conditions.odometry.preset).odometry.latency_s;
   errors.check(latency_s == 0.0 || is_preset || std::lround(latency_s / exchange_period_s) > 0,

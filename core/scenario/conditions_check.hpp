@@ -11,9 +11,9 @@ namespace skein {
 /// `body_drag_area_m2`, which acts in gusts (a fault) without wind, too.
 bool sets_condition(const ConfigNode& section);
 
-/// Adds an error for each key of the file that has no effect, because what it describes is off: the mean wind is 0,
-/// there are no batteries, and so on. A section that names the key that would switch it on may be off: so users can
-/// vary this key alone.
+/// Adds an error for each key of the file that has no effect because its section is off: the mean wind is 0, there are
+/// no batteries, and so on. A section may be off if it has the key that would switch it on, so that users can vary this
+/// key alone.
 /// @param document  the scenario's file @param conditions  those of the file, without the option `--conditions`
 void check_conditions(const ConfigDocument& document, const ConditionsConfig& conditions, double exchange_period_s,
                       ConfigErrors& errors);

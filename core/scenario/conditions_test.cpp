@@ -52,7 +52,7 @@ TEST_F(ConditionsFile, ASectionBeginsWithItsPresetAndOneKeyMayDiffer) {
             "none,wind=own,odometry=breezy,battery=own,lidar=breezy,camera=breezy,radio=breezy");
 }
 
-TEST_F(ConditionsFile, PrintedTheyReadBackToTheSame) {
+TEST_F(ConditionsFile, PrintedConditionsReadBackUnchanged) {
   const Scenario scenario =
       load("conditions: {wind: {preset: harsh, from_deg: 30}, odometry: {preset: harsh, yaw_sigma_deg: 0}}\n");
   const std::string printed = to_yaml(scenario);
@@ -97,7 +97,7 @@ struct BadValue {
 };
 class BadConditions : public ConditionsFile, public ::testing::WithParamInterface<BadValue> {};
 
-TEST_P(BadConditions, AreNamedByFileLineAndKey) {
+TEST_P(BadConditions, AreRefusedWithTheirPlace) {
   const BadValue& bad = GetParam();
   const std::string text =
       complaint(bad.text, *bad.option == 0 ? std::nullopt : std::optional<std::string>(bad.option));

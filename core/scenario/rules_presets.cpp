@@ -1,4 +1,4 @@
-// Presets of rules, and where rules differ from theirs.
+// Presets of rules, and the switches in which rules differ from their preset.
 #include <array>
 
 #include "core/scenario/scenario_keys.hpp"

@@ -143,7 +143,7 @@ struct Scenario {
   std::vector<std::filesystem::path> vehicle_files;  ///< files from which the fleet's vehicles were read
   std::string name;
   std::string description;
-  double duration_s = 600.0;          ///< mission time, from the first take-off
+  double duration_s = 600.0;          ///< mission time, from the first takeoff
   double takeoff_timeout_s = 60.0;    ///< the run ends if no UAV has taken off by then
   double exchange_period_s = 0.05;    ///< duration of one lock-step exchange
   double desired_mm_per_pixel = 2.0;  ///< r_des in the paper
@@ -152,7 +152,7 @@ struct Scenario {
   SceneConfig scene;
   RulesConfig rules;
   ConditionsConfig conditions;          ///< wind, odometry errors, batteries, ...; none by default
-  std::vector<UavConfig> fleet;         ///< its order determines node numbers, domains, and who wins a tie
+  std::vector<UavConfig> fleet;         ///< its order determines node numbers, domains, and which UAV wins a tie
   std::vector<RadioTopicConfig> radio;  ///< radio topics in addition to those that Skein itself declares
   std::vector<LinkEffect> links;        ///< effects on radio links during the whole run
 

@@ -36,7 +36,7 @@ bool is_ros_word(const std::string& text) {
          std::all_of(text.begin(), text.end(), allowed);
 }
 
-/// What `reject` throws as an InputError, or nothing.
+/// The message of the InputError that `reject` throws; empty if it throws none.
 std::string complaint(const auto& reject) {
   try {
     reject();
@@ -59,7 +59,7 @@ void check_times(const Scenario& scenario, ConfigErrors& errors) {
 }
 
 void check_names(const ScenarioFile& file, ConfigErrors& errors) {
-  // Names of nodes and topics; and of members of the lock-step, which is by name.
+  // Names of nodes, topics and programs. The lock-step knows its members by their names, so these must be unique.
   static const std::set<std::string> reserved = {"all",         "clock",     "comm_router", "gcs",
                                                  "one_process", "sim",       "sim_server",  "skein",
                                                  "station",     "uav_agent", "uavs"};
@@ -89,20 +89,20 @@ void check_names(const ScenarioFile& file, ConfigErrors& errors) {
   }
 }
 
-/// Degrees that turn back into exactly these radians, with as few digits as that takes.
+/// Degrees that convert back to exactly these radians; with at most nine decimals if these are exact.
 double tidy_degrees(double radians) {
   const double degrees = radians / kRadPerDeg;
   const double rounded = std::round(degrees * 1e9) / 1e9;
   return rounded * kRadPerDeg == radians ? rounded : degrees;
 }
 
-/// Entries without a start of their own take the places of the procedural scene, in fleet order.
-/// @returns whether there was one for everybody.
+/// Gives each entry without a start the place that the procedural scene has for it: the place with the entry's index.
+/// @returns whether all entries have a start.
 bool find_starts(const Scenario& scenario, std::vector<FleetEntry>& fleet, ConfigErrors& errors) {
   const SceneFamily* family = find_scene_family(scenario.scene.family);
   const std::vector<StartPlace> places =
       family ? scene_starts(*family, scenario.scene.scene_seed) : std::vector<StartPlace>{};
-  // With an unknown family, another error is reported, and whether there are places is not known.
+  // If the family is unknown, check_scene() reports this, and it is not known whether there are places.
   const bool places_known = family != nullptr || from_files(scenario.scene);
   bool all_placed = true;
   for (std::size_t i = 0; i < fleet.size(); ++i) {
@@ -165,13 +165,13 @@ void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
     const LinkEffect& link = file.scenario.links[i];
     const std::string path = index_path("radio.links", i);
     check_link_effect(link, nodes, path, errors);
-    // Exported scenarios have the usual size of the queue in each link.
+    // Exported scenarios have the default size of the queue in each link.
     errors.check(link.bandwidth_bit_s || link.queue_bytes == LinkEffect{}.queue_bytes, path + ".queue_bytes",
                  kNeedsBandwidth);
   }
 }
 
-/// Checks the rules between topics, of which radio_routes() names the first that is broken: "FILE: KEY: what is wrong".
+/// Checks the rules between topics. radio_routes() reports the first broken rule as "FILE: KEY: what is wrong".
 void check_routes(const Scenario& scenario, ConfigErrors& errors) {
   const std::string text = complaint([&] { radio_routes(scenario); });
   if (text.empty()) return;
@@ -293,7 +293,7 @@ void resize_fleet(std::size_t uavs, std::vector<FleetEntry>& fleet) {
   fleet.erase(fleet.begin() + static_cast<std::ptrdiff_t>(std::min(uavs, fleet.size())), fleet.end());
 }
 
-/// What `apply` complains of is about an option.
+/// Calls `apply`, and adds the name of the option to the message of an InputError.
 template <class Apply>
 void of_option(const std::string& option, const Apply& apply) try {
   apply();

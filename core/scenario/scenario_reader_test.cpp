@@ -89,7 +89,7 @@ TEST_F(ScenarioReader, ASwitchOverridesItsPresetWhateverTheOrder) {
   EXPECT_TRUE(contest.rules.unnormalised_displacement);
 }
 
-TEST_F(ScenarioReader, PresetsDifferWhereTheirSourcesDo) {
+TEST_F(ScenarioReader, PresetsDifferAsTheirSourcesDo) {
   const RulesConfig contest = rules_preset("contest"), paper = rules_preset("paper");
   EXPECT_EQ(contest.min_point_score, 0.2);
   EXPECT_EQ(paper.min_point_score, 0.0) << "Eq. 1 has no least score";
@@ -162,7 +162,7 @@ TEST_F(ScenarioReader, EveryRuleHasItsSwitch) {
   EXPECT_EQ(read.rules.takeoff_speed_mps, 0.2);
 }
 
-TEST_F(ScenarioReader, ShippedVehiclesAndTimesAreTheBenchmarks) {
+TEST_F(ScenarioReader, ShippedVehiclesAndTimesAreThoseOfTheBenchmark) {
   const VehicleConfig explorer = load_vehicle("explorer", options_.config_dir);
   const VehicleConfig photographer = load_vehicle("photographer", options_.config_dir);
   EXPECT_EQ(explorer.max_speed_mps, 6.0);
@@ -214,7 +214,7 @@ TEST_F(ScenarioReader, TheLidarOfAVehicleMayLoseReturns) {
             "v.yaml:5: missing key 'lidar.dropped_sectors.hold_s': it is required");
 }
 
-TEST_F(ScenarioReader, FindsSceneFilesBesideItOrInTheAssets) {
+TEST_F(ScenarioReader, FindsSceneFilesBesideTheScenarioOrInTheAssets) {
   write("own.stl", "");
   fs::create_directories(folder_ / "data" / "models");
   write("data/models/p.pcd", "");
@@ -244,7 +244,7 @@ TEST_F(ScenarioReader, ASeedForASceneFromFilesIsRefused) {
             std::string::npos);
 }
 
-TEST_F(ScenarioReader, AFleetMayBeOfAnotherSize) {
+TEST_F(ScenarioReader, TheOptionUavsChangesTheSizeOfTheFleet) {
   const auto fleet_of = [&](std::size_t uavs) {
     options_.uavs = uavs;
     return load_scenario("towers", options_).fleet;
@@ -266,7 +266,7 @@ TEST_F(ScenarioReader, AFleetMayBeOfAnotherSize) {
   }
 }
 
-TEST_F(ScenarioReader, AVehicleMayStandBesideTheScenario) {
+TEST_F(ScenarioReader, AVehicleFileMayBeBesideTheScenario) {
   write("tiny.yaml", "name: tiny\nrole: photographer\nmass_kg: 1.25\n");
   const std::string file = write("s.yaml",
                                  "desired_mm_per_pixel: 2\nscene: {family: towers}\n"
@@ -276,7 +276,7 @@ TEST_F(ScenarioReader, AVehicleMayStandBesideTheScenario) {
   EXPECT_NE(complaint(file).find("tiny.yaml:3: mass_kg: must be a number"), std::string::npos) << complaint(file);
 }
 
-TEST_F(ScenarioReader, StartsAreAsFarApartAsTheTwoBodiesNeed) {
+TEST_F(ScenarioReader, StartsTooCloseForTheTwoBodiesAreRefused) {
   RandomStream random(1, "starts", 0);
   for (int i = 0; i < 60; ++i) {
     const std::string first = i % 2 == 0 ? "explorer" : "photographer", second = i % 3 == 0 ? "explorer" : first;
@@ -321,7 +321,7 @@ TEST_F(ScenarioReader, HelpsWithAMistypedScenario) {
   EXPECT_NE(complaint("wild").find("have no file here; write one with `skein scene wild "), std::string::npos);
 }
 
-TEST(ConfigDir, IsWhatTheEnvironmentSays) {
+TEST(ConfigDir, IsTheFolderThatTheEnvironmentNames) {
   const std::string config = source_path("config");
   ASSERT_EQ(::setenv("SKEIN_CONFIG_DIR", config.c_str(), 1), 0);
   EXPECT_EQ(default_config_dir(), config);
@@ -330,8 +330,8 @@ TEST(ConfigDir, IsWhatTheEnvironmentSays) {
   ::unsetenv("SKEIN_CONFIG_DIR");
 }
 
-// A member of the lock-step, a node or a folder of topics would have the same name.
-TEST_F(ScenarioReader, UavsDoNotHaveTheNamesOfProgramsAndNodes) {
+// Otherwise a UAV could have the name of a member of the lock-step, of a node or of a folder of topics.
+TEST_F(ScenarioReader, AUavWithTheNameOfAProgramOrNodeIsRefused) {
   for (const std::string name :
        {"all", "clock", "comm_router", "gcs", "one_process", "sim", "sim_server", "skein", "station", "uav_agent"}) {
     const std::string file =
@@ -352,7 +352,7 @@ TEST_F(ScenarioReader, AMissingStartIsTheOnlyErrorReportedForAUav) {
             file + ":4: fleet[0]: 'a' needs a 'start: [x, y]': a scene from files has no places of its own");
 }
 
-TEST_F(ScenarioReader, AFileThatIsMissingIsLookedForWhereItsPathSays) {
+TEST_F(ScenarioReader, TheErrorNamesThePathAtWhichAFileIsMissing) {
   const std::string beside = complaint(scenario("{meshes: [./models/own.stl], points: ./p.pcd, boxes: ./b.yaml}"));
   EXPECT_NE(beside.find("there is no file " + (folder_ / "models/own.stl").string() + "\n"), std::string::npos)
       << beside;
@@ -371,7 +371,7 @@ TEST_F(ScenarioReader, AFileThatIsMissingIsLookedForWhereItsPathSays) {
 }
 
 // A reader whose time grew with the square of the file's length would take minutes.
-TEST_F(ScenarioReader, LargeFilesAreReadOrRefusedInTheTimeThatTheirLengthTakes) {
+TEST_F(ScenarioReader, LargeFilesAreReadOrRefusedInTimeProportionalToTheirLength) {
   const std::string head = "desired_mm_per_pixel: 2\nscene: {family: towers}\nfleet: [{name: a, vehicle: explorer}]\n";
   std::string topics = head + "radio:\n  topics:\n";
   for (int i = 0; i < 20000; ++i) {

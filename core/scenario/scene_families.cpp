@@ -9,10 +9,10 @@ namespace skein {
 namespace {
 
 constexpr double kLargestShift = 2.0;
-constexpr double kCrowded = 0.25;    ///< share of the varied seeds
-constexpr double kCrowdStep = 1.45;  ///< between two in a crowd [m]
+constexpr double kCrowded = 0.25;    ///< share of the varied seeds with which all UAVs start close together
+constexpr double kCrowdStep = 1.45;  ///< distance between neighbours that start close together [m]
 
-/// The start places of the UAVs, and whether all are at one place.
+/// Shuffles the start places among the UAVs. With some seeds, moves all of them close to one place.
 void vary(std::vector<StartPlace>& places, const std::vector<Vector2d>& nominal, RandomStream& random) {
   for (std::size_t i = places.size(); i > 1; --i) {
     std::swap(places[i - 1], places[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);

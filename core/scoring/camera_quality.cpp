@@ -10,7 +10,7 @@ namespace skein {
 namespace {
 
 constexpr double kMetresPerMm = 0.001;
-/// The reference's half a degree, truncated; it moves the radius by some 8 nm.
+/// Half a degree in radians, truncated as in the reference; this changes the radius by about 8 nm.
 constexpr double kHalfDegree = 0.00872664625;
 constexpr double kRadiusMargin = 5.0;
 /// Half the step along the surface [m].
@@ -79,7 +79,7 @@ std::optional<Vector3d> Exposure::view(const Vector3d& p_W) const {
 }
 
 Exposure::PixelPair Exposure::pixel_move(const Vector3d& p_C) const {
-  // The point is moved along a straight line. It may end up behind the camera; the reference does not mind.
+  // The point is moved along a straight line. It may end up behind the camera; the reference does not check this.
   const Vector3d moved = p_C - exposure_s_ * (w_C_.cross(p_C) + v_C_);
   return {pixels_per_slope_ * std::abs(p_C.z() / p_C.x() - moved.z() / moved.x()),
           pixels_per_slope_ * std::abs(p_C.y() / p_C.x() - moved.y() / moved.x())};
@@ -89,7 +89,7 @@ std::optional<Exposure::PixelPair> Exposure::mm_per_pixel(const Vector3d& p_C, c
   const Vector3d n = (R_CW_ * n_W).normalized();
   Vector3d dx(-n.z(), 0.0, n.x()), dy(-n.y(), n.x(), 0.0);
   if (rule_ == ResolutionRule::paper) {
-    // A surface seen exactly edge-on leaves a step of zero: no resolution at all, as it should be.
+    // If a surface is seen exactly edge-on, a step is zero, so that the quality of the resolution becomes 0.
     dx.normalize();
     dy.normalize();
   }
@@ -104,8 +104,8 @@ std::optional<Exposure::PixelPair> Exposure::mm_per_pixel(const Vector3d& p_C, c
 }
 
 double Exposure::blur_quality(const PixelPair& move) const {
-  // A point that is moved into the camera's own plane leaves 0 / 0: it went all over the picture. Comparisons with a
-  // NaN are false, so each of the two is asked for.
+  // A point that is moved into the camera's own plane gives 0 / 0: it moves across the whole picture, so its quality is
+  // 0. Both values are checked for NaN, because std::max() may return the other value.
   if (std::isnan(move.u) || std::isnan(move.v)) return 0.0;
   const double pixels = std::max(move.u, move.v);
   return pixels <= 1.0 ? 1.0 : 1.0 / pixels;

@@ -35,7 +35,7 @@ TEST(CameraQuality, TheSearchRadiusIsThatOfTheContest) {
   EXPECT_NEAR(search_radius({}, 1.0), 10.25, 0.005);
 }
 
-TEST(CameraQuality, TheSearchRadiusIsASwitch) {
+TEST(CameraQuality, ARuleSwitchesTheSearchRadiusOff) {
   // 20 m away a point still has a quality of 0.37; the organisers' camera does not look so far.
   const double d = resolution_distance({}, kDesired);
   RulesConfig rules;
@@ -126,7 +126,7 @@ TEST(CameraQuality, DistanceAndTiltAreTheTwoPartsOfTheResolution) {
 }
 
 /// With exposures of 2^-10 s and coordinates of few digits, the formulas compute everything up to 0 / 0 exactly.
-TEST(CameraQuality, AQualityThatTheFormulasLeaveUndefinedNeverPasses) {
+TEST(CameraQuality, APointWithAnUndefinedQualityNeverScores) {
   RandomStream random(2, "camera_quality_test", 0);
   const auto draw = [&](int until) { return std::floor(random.uniform(-1.0, 1.0) * until) / 16.0; };
   CameraConfig camera;
@@ -146,7 +146,7 @@ TEST(CameraQuality, AQualityThatTheFormulasLeaveUndefinedNeverPasses) {
       ASSERT_TRUE(moved);
       EXPECT_FALSE(std::isnan(moved->score())) << p_C.transpose();
       EXPECT_LT(moved->score(), least) << p_C.transpose() << " to " << landing.transpose();
-      // In the camera's own plane, or as near as half a step along the surface, where a corner of it is.
+      // In the camera's own plane, or half a step in front of it, so that an end of the step may be in this plane.
       for (const Vector3d& degenerate : {Vector3d(0.0, 0.0, 0.0), Vector3d(0.0, p_C.y(), p_C.z()),
                                          Vector3d(0.0005, 0.0, 0.0005), Vector3d(0.0005, 0.0005, 0.0)}) {
         for (const Vector3d& normal : {n, Vector3d(0.0, 0.0, 1.0), Vector3d(0.0, 1.0, 0.0), Vector3d(1.0, 0.0, 0.0)}) {

@@ -61,9 +61,9 @@ struct TallyChange {
 /// A point is detected if its quality is at least this, even if the rules let smaller qualities score.
 inline constexpr float kDetectedQuality = 0.2F;
 
-/// Score of a fleet. For each interest point counts the best capture among the UAVs without a collision (of all UAVs
-/// when `rules.collision_voids_score` is off); ties go to the earlier capture, then to the UAV that stands first in the
-/// fleet. The result does not depend on the order in which captures and collisions come in, nor on repetitions.
+/// Score of a fleet. For each interest point, the best capture of the UAVs without a collision counts (of all UAVs if
+/// `rules.collision_voids_score` is off). Ties go to the earlier capture, then to the UAV that comes first in the fleet.
+/// The result does not depend on the order in which captures and collisions come in, nor on repetitions.
 class ScoreTable {
  public:
   ScoreTable(std::size_t uavs, std::size_t points, const RulesConfig& rules);
