@@ -11,7 +11,8 @@
 namespace skein {
 namespace {
 
-/// @throws InputError if a name of DDS is too long. @param given  what the user wrote. @param what  it is.
+/// @returns `name`. @throws InputError if it is too long for DDS.
+/// @param given  the name as the user wrote it @param what  kind of name, for the message
 std::string bounded(std::string name, std::string_view given, const char* what) {
   if (name.size() <= kMostNameBytes) return name;
   throw InputError("'" + shortened(std::string(given)) + "' is too long: the name of " + what + " may have " +

@@ -53,7 +53,7 @@ TEST(Topics, EveryEntryOfTheTablesIsWellFormedAndUnique) {
 }
 
 /// Everything that the server writes into a UAV's domain, except the lock-step's messages and what other nodes send by
-/// radio. If you add a topic here, be sure that it carries nothing of the referee's and no truth: no score of the
+/// radio. If you add a topic here, make sure that it has neither data of the referee nor ground truth: no score of the
 /// fleet, no points that this UAV's camera has not seen, no position without the odometry's error, nothing of the mesh.
 TEST(Topics, AUavReceivesOnlyWhatItsOwnSensorsAndItsRadioTell) {
   std::set<std::string_view> received;

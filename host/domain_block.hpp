@@ -33,9 +33,9 @@ class DomainBlock {
   int last() const { return base_ + static_cast<int>(locks_.size()) - 1; }
 
  private:
-  /// Tests by taking: between a test and a lock, another fleet could take the domain. While a fleet tries a block that
-  /// is not free as a whole, it holds the block's first domains for some microseconds. Another fleet that wants just
-  /// these then is refused, or goes to the next block: never do two fleets share a domain.
+  /// Takes the locks without testing them first: between a test and a lock, another fleet could take the domain. If the
+  /// block is not free as a whole, this object holds its first domains for some microseconds. Another fleet that wants
+  /// these domains meanwhile is refused or goes to the next block, but two fleets never share a domain.
   /// @returns the first domain of the block at `base` that is already locked; nullopt: this object now holds all locks.
   std::optional<int> try_lock(int base, int size);
   std::string lock_name(int domain) const;

@@ -31,8 +31,8 @@ std::string variable(const Words& environment, const std::string& name) {
 
 double number_or(const std::string& text, double otherwise) { return parse_number(text).value_or(otherwise); }
 
-/// Name of the fleet's program whose command line this is; empty: of none. The command line of a debugger contains that
-/// of the program, but not at its beginning, so it is not taken for the program.
+/// Name of the fleet's program that has this command line; empty: no program has it. The command line of a debugger
+/// contains that of the program, but not at its beginning, so the debugger is not taken for the program.
 std::string program_in(const Words& words) {
   if (words.size() < 2 || words[1] != "--scenario" || value_after(words, "--out").empty()) return {};
   const std::string uav = value_after(words, "--uav");

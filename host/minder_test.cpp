@@ -212,7 +212,7 @@ TEST_F(MinderTest, KillsTheProcessesThatItsProgramLeavesBehindAlsoInTheThirdGene
 }
 
 TEST_F(MinderTest, KillsAllWhenTheLauncherHasDied) {
-  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // so that the minder becomes our child
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // so that the minder becomes a child of this process
   const pid_t launcher = start_below_launcher("( (sleep 1000 & echo started; wait) & wait) & read line; exit 5");
   EXPECT_EQ(heard(), "started");
   EXPECT_TRUE(minder_waits());

@@ -60,8 +60,8 @@ std::vector<char*> pointers(const std::vector<std::string>& strings) {
   return result;
 }
 
-/// What the child does between fork and exec, with async-signal-safe calls only. Writes its process id to the pipe
-/// `news`, then errno if it cannot start the program.
+/// The child's work between fork and exec, which uses only async-signal-safe calls. The child writes its process id to
+/// the pipe `news`, then errno if it cannot start the program.
 struct ChildSetup {
   pid_t parent;                                 ///< the launcher, or the program's minder
   int input, log, status, control, view, news;  ///< input, log: -1 keeps the launcher's; view: -1 is none

@@ -17,9 +17,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// How often the launcher checks whose turn it is.
+/// Interval at which the launcher checks the turns.
 constexpr std::chrono::milliseconds kLook{200};
-/// Factor on the patience, since the process watches its turns itself and knows more of them: it must notice first.
+/// Factor on the patience. The process watches its turns, too, and can say more about them, so it must notice a long
+/// turn first.
 constexpr double kTimesPatience = 1.5;
 
 }  // namespace
@@ -61,11 +62,11 @@ void SharedProcess::look_after_turns() {
   }
   if (!too_long) return;
   for (Seat& seat : seats_) seat.since = now;
-  if (tracer_of(page_.process()) != 0) return;  // a debugger takes its time
+  if (tracer_of(page_.process()) != 0) return;  // a program in a debugger may take any time
   page_.give_reason(fmt::format("this program did not end its turn for {} s, and its process {}", patience_.count(),
                                 cli::has_stopped(page_.process()) ? "is stopped (SIGSTOP)" : "does not say why"));
   supervisor_.signal(process_.name, SIGKILL);
-  supervisor_.signal(process_.name, SIGCONT);  // its minder has stopped with it, and must notice its end
+  supervisor_.signal(process_.name, SIGCONT);  // the minder has stopped with the process, and must notice its end
 }
 
 void SharedProcess::send(const std::string& program, const std::string& line) {

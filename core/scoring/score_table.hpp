@@ -62,7 +62,7 @@ struct TallyChange {
 inline constexpr float kDetectedQuality = 0.2F;
 
 /// Score of a fleet. For each interest point, the best capture of the UAVs without a collision counts (of all UAVs if
-/// `rules.collision_voids_score` is off). Ties go to the earlier capture, then to the UAV that comes first in the fleet.
+/// `rules.collision_voids_score` is off). Ties go to the earlier capture, then to the UAV that is first in the fleet.
 /// The result does not depend on the order in which captures and collisions come in, nor on repetitions.
 class ScoreTable {
  public:

@@ -8,13 +8,13 @@
 namespace skein {
 namespace {
 
-/// OpenSSL fails here only for want of memory.
+/// OpenSSL fails here only if it runs out of memory.
 void must(bool ok) {
   if (!ok) throw std::runtime_error("OpenSSL cannot compute SHA-256");
 }
 
-/// Fetched once: EVP_sha256() is looked for in OpenSSL's providers by each new context, which takes longer than a short
-/// text.
+/// Fetched once. With EVP_sha256(), each new context would search OpenSSL's providers, which takes longer than to hash
+/// a short text.
 const EVP_MD* method() {
   static const EVP_MD* const fetched = EVP_MD_fetch(nullptr, "SHA256", nullptr);
   return fetched;
@@ -68,7 +68,7 @@ Sha256& Sha256::add_word(std::uint64_t value) {
 void Sha256::update(const void* data, std::size_t size) { must(EVP_DigestUpdate(context_.get(), data, size) == 1); }
 
 std::array<std::uint8_t, 32> Sha256::digest() const {
-  const Sha256 finished(*this);  // finishing ends a context; this one goes on
+  const Sha256 finished(*this);  // a copy, because finishing ends a context
   std::array<std::uint8_t, 32> bytes{};
   unsigned size = 0;
   must(EVP_DigestFinal_ex(finished.context_.get(), bytes.data(), &size) == 1 && size == bytes.size());

@@ -6,7 +6,7 @@
 namespace skein {
 namespace {
 
-/// Levenshtein distance, two rows of the table at a time.
+/// Levenshtein distance. Only one row of the table is stored.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -25,7 +25,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongestWord = 64;  // a longer one is not a typing slip
+  constexpr std::size_t kLongestWord = 64;  // a longer one is not a typing error
   std::size_t best = word.size() > kLongestWord ? 0 : std::max<std::size_t>(2, word.size() / 3) + 1;
   const std::string* nearest = nullptr;
   for (const std::string& candidate : known) {

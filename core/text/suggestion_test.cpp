@@ -20,7 +20,7 @@ TEST(Suggestion, FindsANameWithoutItsUnit) {
 TEST(Suggestion, ListsAllWhenNoneIsNear) {
   EXPECT_EQ(suggestion("hangar", {"mbs", "crane"}), "known are: mbs, crane");
   EXPECT_EQ(suggestion(std::string(100000, 'x'), {"mbs"}), "known are: mbs");
-  EXPECT_EQ(suggestion("x", {"y", "ab"}), "known are: y, ab");  // nothing of the word would be left
+  EXPECT_EQ(suggestion("x", {"y", "ab"}), "known are: y, ab");  // a suggestion would replace the whole word
   EXPECT_EQ(suggestion("x", {}), "none is known");
 }
 

@@ -8,7 +8,8 @@
 namespace skein {
 
 /// The code point at `at` in a UTF-8 text; moves `at` behind it.
-/// -1: there is no valid character, or the text ends; then `at` may stay where it is, so do not continue from there.
+/// -1: there is no valid character, for example because the text ends within it. Then `at` may not have moved, so do
+/// not continue from there. @param at  less than the length of the text
 std::int64_t next_character(const std::string& text, std::size_t& at);
 
 /// Whether a byte of a UTF-8 text is not the first one of its character.

@@ -76,7 +76,7 @@ TEST(Airframe, AVehicleOfOneBodyHasTheMassAndInertiaOfThatBody) {
   EXPECT_EQ(whole.I_BBcm_B, Matrix3d(vehicle.inertia.asDiagonal()));
 }
 
-TEST(Airframe, TheShippedVehiclesByHand) {
+TEST(Airframe, TheShippedVehiclesHaveTheMassAndInertiaComputedByHand) {
   const std::filesystem::path config = source_path("config");
   const MassProperties explorer = mass_properties(load_vehicle("explorer", config));
   EXPECT_NEAR(explorer.mass_kg, 3.385, 1e-12);
@@ -96,7 +96,7 @@ TEST(Airframe, TheShippedVehiclesByHand) {
   EXPECT_NEAR(photographer.I_BBcm_B(2, 2), 0.0977 + 0.045 * 0.2156 * 0.2156, 1e-12);
 }
 
-TEST(Airframe, BoxesAreWithinTheRoomThatItTakes) {
+TEST(Airframe, ReachRadiusAndRestHeightFollowFromTheBoxes) {
   RandomStream random(2, "airframes", 0);
   for (int i = 0; i < 200; ++i) {
     const VehicleConfig vehicle = drawn_vehicle(random);

@@ -15,8 +15,8 @@ inline constexpr double kStandardGravity = 9.8;
 
 /// @param thrust_n  of one rotor, at least 0.  @param across_mps  speed of the air across the disc.
 /// @param climb_mps  speed of the disc along its axis through the air; negative: descent.
-/// @returns induced velocity [m/s]; 0 without thrust or disc area. Where momentum theory fails (descent near v_h), that
-///   of the hover.
+/// @returns induced velocity [m/s]; 0 without thrust or disc area. For a descent, that of level flight at the same
+///   speed across the disc, because momentum theory fails in descents near v_h.
 double induced_velocity(double thrust_n, double disc_area_m2, double across_mps, double climb_mps);
 
 /// Ideal power of one rotor [W], not negative.
