@@ -29,11 +29,11 @@ constexpr std::size_t kStatusLook = 64 << 10;
 constexpr std::size_t kLongestStatusLine = 16 << 20;
 /// A line is dropped if the program does not read its control pipe for this long.
 constexpr int kSendPatience_ms = 2000;
-/// How often the sizes of logs are checked.
+/// Interval at which the sizes of logs are checked.
 constexpr std::chrono::milliseconds kLogLook{200};
 constexpr std::size_t kLogTail = 64 << 10, kLongestLogLine = 1000;
 
-/// SIGHUP is ignored under nohup: the launcher is to survive the loss of the terminal.
+/// Under nohup, SIGHUP is ignored and must stay so, because the launcher is to survive the loss of the terminal.
 bool is_ignored(int signal) {
   struct sigaction action {};
   return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
@@ -327,7 +327,7 @@ std::vector<std::string> last_lines(const std::filesystem::path& file, std::size
   for (std::string line; std::getline(in, line); cut = false) {
     if (cut && !in.eof()) {
       if (in.peek() != std::ifstream::traits_type::eof()) continue;
-      line = "... " + line.substr(line.size() - std::min(line.size(), kLongestLogLine));  // nothing else is there
+      line = "... " + line.substr(line.size() - std::min(line.size(), kLongestLogLine));  // the file has no other line
     }
     if (line.size() > kLongestLogLine && !line.starts_with("... ")) line = line.substr(0, kLongestLogLine) + " ...";
     tail.push_back(line);

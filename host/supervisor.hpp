@@ -18,8 +18,8 @@
 
 namespace skein::cli {
 
-/// From construction to destruction SIGINT, SIGTERM and SIGHUP (unless nohup had it ignored) become Event::interrupt,
-/// and SIGPIPE is ignored.
+/// From construction to destruction, SIGINT, SIGTERM and SIGHUP (unless it is ignored, as under nohup) become
+/// Event::interrupt, and SIGPIPE is ignored.
 class Supervisor final : public ProgramHost {
  public:
   Supervisor();
@@ -28,7 +28,8 @@ class Supervisor final : public ProgramHost {
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
 
-  /// Starts it in its own process group, with status and control pipe; stdin is /dev/null, or the terminal (`here`).
+  /// Starts the program in a process group of its own, with status and control pipe. Its stdin is /dev/null, or the
+  /// launcher's (ProgramSpec::here).
   void start(const ProgramSpec& spec) override;
   std::vector<Event> wait(std::chrono::milliseconds limit) override;
   /// From now on wait() also returns, perhaps without events, if one of these descriptors is readable. Negative
@@ -55,7 +56,7 @@ class Supervisor final : public ProgramHost {
   void read_status(Child& child, std::size_t most, std::vector<Event>& events);
   /// Trims the logs to their limits.
   void trim_logs() const;
-  /// poll() that meanwhile trims the logs.
+  /// As poll(), but trims the logs while it waits.
   int poll_and_trim(std::vector<pollfd>& polled, std::chrono::milliseconds limit) const;
   void reap(Child& child, std::vector<Event>& events);
   static void signal_child(const Child& child, int signal);

@@ -52,7 +52,7 @@ void sync_folder_of(const std::filesystem::path& path) {
   if (folder.is_open()) static_cast<void>(folder.sync());
 }
 
-/// Whether the system may let a program write into a file that it did not let it replace, for this reason.
+/// Whether a file that cannot be replaced, for this reason, can perhaps be overwritten.
 bool may_stay(const std::error_code& reason) {
   const int code = reason.value();
   return code == EBUSY || code == EACCES || code == EPERM || code == EROFS;
@@ -91,7 +91,7 @@ void replace_or_overwrite(const std::filesystem::path& path, std::string_view co
 } catch (const std::system_error& error) {
   std::error_code ignored;
   if (!may_stay(error.code()) || !std::filesystem::is_regular_file(path, ignored)) throw;
-  const File file(path, O_RDWR);  // where the system cannot reserve room, the C library reads the file for that
+  const File file(path, O_RDWR);  // if the system cannot reserve room, posix_fallocate() reads the file
   if (file.is_open() && file.overwrite(content) && file.sync()) return;
   throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
 }

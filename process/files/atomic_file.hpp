@@ -20,15 +20,14 @@ enum class Flush { to_disk, none };
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Readers readers = Readers::all,
                            Flush flush = Flush::to_disk);
 
-/// Gives a file that another program has written its name, `path` in the same folder, once it is on the disk: some
-/// disks tell only then that they are full.
+/// Flushes a file that another program has written to the disk, then renames it to `path` in the same folder. The flush
+/// comes first, because some disks report only then that they are full.
 /// @throws std::system_error, with the name `path`; then the file keeps its former name.
 void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& path);
 
-/// The same as write_file_atomically(), for a file that the user has named and that
-/// perhaps cannot be replaced: something is mounted on it (a bind mount of a container), or its folder takes no new
-/// files. Then writes into the file that is there: readers may see a part of the text. On a full disk the former text
-/// stays.
+/// As write_file_atomically(), for a file that the user has named and that perhaps cannot be replaced: something is
+/// mounted on it (a bind mount of a container), or its folder takes no new files. Then the function overwrites the
+/// existing file, so readers may see a part of the text. On a full disk the former text stays.
 void replace_or_overwrite(const std::filesystem::path& path, std::string_view content);
 
 /// write_file_atomically(), for a file that the program can do without; a file in kNowhere (process/files/nowhere.hpp)

@@ -51,7 +51,7 @@ class ClosedToAgents : public testing::Test {
   fs::path dir_;
 };
 
-TEST_F(ClosedToAgents, OnlyAgentsLoseAccessWhateverTheMode) {
+TEST_F(ClosedToAgents, OnlyAgentsLoseAccessInAnyMode) {
   if (::geteuid() != 0) GTEST_SKIP() << "agents have users of their own only if root starts them";
   for (mode_t bits = 0; bits < 0100; ++bits) {
     for (const bool is_folder : {false, true}) {

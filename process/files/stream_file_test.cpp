@@ -23,7 +23,7 @@ class StreamFileTest : public testing::Test {
   const fs::path file_ = fs::path(testing::TempDir()) / ("skein_stream_" + std::to_string(::getpid()));
 };
 
-TEST_F(StreamFileTest, ContainsWhatWasWritten) {
+TEST_F(StreamFileTest, ContainsTheWrittenText) {
   {
     StreamFile file(file_);
     file << "a,b\n"

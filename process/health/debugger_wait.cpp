@@ -69,7 +69,7 @@ class AttachWatch {
   int noticed_fd_;
   int end_fd_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   std::atomic<pid_t> thread_id_ = 0;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last, because it uses the other members
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ int watch(pid_t worker, const WaitedForSignals& signals, bool& asked_to_end) {
       continue;
     }
     asked_to_end = true;
-    if (info.si_code != SI_KERNEL) ::kill(worker, info.si_signo);  // a terminal sends Ctrl-C to both itself
+    if (info.si_code != SI_KERNEL) ::kill(worker, info.si_signo);  // a terminal sends Ctrl-C to both processes
   }
 }
 
