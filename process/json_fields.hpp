@@ -140,7 +140,7 @@ Json write(const T& value) {
     return list;
   } else {
     Writer writer;
-    T copy = value;  // describe() also serves reading, so it takes no const
+    T copy = value;  // describe() also reads into the struct, so it takes no const reference
     describe(writer, copy);
     return writer.take();
   }

@@ -86,7 +86,7 @@ TEST(JsonFields, KeysHaveTheOrderOfTheListOfFields) {
             R"("raw":{"any":[1,null]},"file":"a folder/b"})");
 }
 
-TEST(JsonFields, AMissingKeyOrOneOfAnotherKindLeavesTheValueAsItWas) {
+TEST(JsonFields, AMissingKeyOrAValueOfAnotherKindLeavesTheDefault) {
   const Json good = json_of(some());
   const Json no_object = Json::array();
   EXPECT_EQ(struct_of<Whole>(no_object), Whole());
@@ -95,7 +95,7 @@ TEST(JsonFields, AMissingKeyOrOneOfAnotherKindLeavesTheValueAsItWas) {
   for (const auto& [key, value] : good.items()) {
     Json lacking = good;
     lacking.erase(key);
-    nlohmann::json expected = json_of(Whole());  // json_of() may list the keys in any order
+    nlohmann::json expected = json_of(Whole());  // unlike Json, it ignores the order of the keys
     for (const auto& [other, known] : good.items()) {
       if (other != key) expected[other] = known;
     }

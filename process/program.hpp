@@ -1,4 +1,4 @@
-// What every main() shares: options, logging, signals, exit codes.
+// Code that every main() shares: options, logging, signals, exit codes.
 //
 //   int main(int argc, char** argv) {
 //     return skein::run_program("comm_router", argc, argv, {}, [](const skein::ProgramOptions& options,

@@ -30,7 +30,7 @@ std::optional<double> event_time_s(const Json& result, const std::string& member
       if (names(entry, lost ? "member" : "name"))
         keep_first(first, time_of(entry, lost ? "time_s" : "first_rejected_s"));
     }
-    // The exchange at this time decides it, so it must come before the time that is returned.
+    // The exchange at this time decides the event, so the returned time must be later.
     if (first && period_s.is_number()) *first += 0.5 * period_s.get<double>();
   } else {
     for (const Json& entry : entries("faults")) {

@@ -37,7 +37,7 @@ class Browser : public testing::Test {
   const std::string path_ = ::getenv("PATH");
 };
 
-TEST_F(Browser, IsTheOneTheUserChoseOrThatOfTheDesktop) {
+TEST_F(Browser, IsTheUsersChoiceOrThatOfTheDesktop) {
   EXPECT_EQ(command({{"DISPLAY", ":0"}}), (Words{at("xdg-open"), "/there/view.html"}));
   EXPECT_EQ(command({{"WAYLAND_DISPLAY", "wayland-0"}}), (Words{at("xdg-open"), "/there/view.html"}));
   EXPECT_EQ(command({{"DISPLAY", ":0"}, {"BROWSER", "mine"}}), (Words{at("mine"), "/there/view.html"}));
@@ -46,7 +46,7 @@ TEST_F(Browser, IsTheOneTheUserChoseOrThatOfTheDesktop) {
   EXPECT_EQ(command({{"DISPLAY", ":0"}, {"BROWSER", "none"}}), (Words{at("xdg-open"), "/there/view.html"}));
 }
 
-TEST_F(Browser, IsNoneIfNoUserSitsBeforeTheScreen) {
+TEST_F(Browser, IsNoneWithoutALocalDisplay) {
   EXPECT_EQ(command({}), Words());
   EXPECT_EQ(command({{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"BROWSER", "mine"}}), Words());
   EXPECT_EQ(command({{"DISPLAY", "localhost:10.0"}, {"SSH_CONNECTION", "192.0.2.1 1 192.0.2.2 22"}}), Words());

@@ -15,8 +15,8 @@ std::optional<std::uint64_t> memory_left();
 /// Memory that a fleet's programs need over DDS [bytes]: an estimate, rounded up, from fleets of 1 to 100 UAVs
 /// (docs/performance.md). Maps grow with the mission and the scene, so long missions need more.
 constexpr std::uint64_t fleet_memory(std::size_t uavs) { return (90 + 9 * uavs) * 1'000'000; }
-/// Memory that a fleet in one process needs [bytes]: an estimate from flights of 20 s with 1 to 1,000 UAVs. The square
-/// is what programs store for each pair of UAVs.
+/// Memory that a fleet in one process needs [bytes]: an estimate from flights of 20 s with 1 to 1,000 UAVs. The term
+/// with the square is for data about each pair of UAVs.
 constexpr std::uint64_t one_process_memory(std::size_t uavs) {
   return (55 + 8 * uavs) * 1'000'000 + 7'000 * uavs * uavs;
 }

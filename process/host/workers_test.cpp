@@ -21,7 +21,7 @@ std::uint64_t mixed(std::uint64_t seed, int rounds) {
 class WorkersTest : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Threads, WorkersTest, testing::Values(1, 2, 3, 16));
 
-TEST_P(WorkersTest, EachPieceIsDoneOnceWhateverItsLength) {
+TEST_P(WorkersTest, EachPieceIsDoneOnceForAnyLength) {
   Workers workers(GetParam());
   EXPECT_EQ(workers.threads(), GetParam());
   RandomStream random(static_cast<std::uint64_t>(GetParam()), "pieces", 0);

@@ -11,7 +11,7 @@ struct RelayedTopic {
   Count received = {};  ///< all messages: handed on, lost, and refused as invalid
   Count handed_on = {};
   Count late = {};         ///< messages among those handed on whose stamp says that they are late
-  Count lost = {};         ///< more than one step may have, or received while the UAV's program was away
+  Count lost = {};         ///< beyond the limit of one step, or received while the UAV's program was away
   Count refused = {};      ///< not valid for the topic's type, or handed on and rejected by sim_server
   Count other_clock = {};  ///< stamps that are not of simulated time
 };

@@ -197,7 +197,7 @@ struct SimServerReport {
   FlightReport flight = {};
   std::optional<FlightCheckReport> flight_check = {};
   Texts warnings = {};
-  Count malformed = {};  ///< invalid samples for their topic's type; all reports have this and the next two members
+  Count malformed = {};  ///< samples invalid for their topic's type; all reports have this and the next two members
   Count unsent = {};     ///< samples that could not be sent
   Texts unwritten = {};  ///< files that could not be written, one sentence each
   std::optional<Texts> differences = {};  ///< differences from the run that this run repeats, one sentence each

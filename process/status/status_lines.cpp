@@ -49,7 +49,7 @@ namespace {
 
 constexpr const char* kTypeKey = "type";
 
-/// The line as the one of these types that its "type" names; nullopt: none.
+/// The line as the type that its key "type" names; nullopt: it names none of these types.
 template <class... Types>
 std::optional<Line> read_as(const Json& json, const std::variant<Types...>*) {
   std::optional<Line> line;

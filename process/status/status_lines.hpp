@@ -17,7 +17,7 @@ namespace skein::status {
 /// From sim_server, several times a second.
 struct Progress {
   static constexpr const char* kType = "progress";
-  double time_s = 0.0, mission_s = 0.0;  ///< simulated time since the start, and since the first take-off
+  double time_s = 0.0, mission_s = 0.0;  ///< simulated time since the start, and since the first takeoff
   double duration_s = 0.0;               ///< of the mission
   Phase phase = Phase::waiting;
   std::vector<std::string> in_contact = {};  ///< UAVs with a link to the ground station

@@ -59,7 +59,7 @@ void TurnPage::map() {
   content_ = static_cast<Content*>(memory);
 }
 
-// Called by constructors, and after one that throws there is no destructor to close the file.
+// Closes the file itself, because constructors call it, and no destructor follows a constructor that throws.
 void TurnPage::fail(const std::string& what) {
   const int reason = errno;
   if (fd_ >= 0) ::close(fd_);

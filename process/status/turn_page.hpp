@@ -1,6 +1,6 @@
-// Which program has its turn in a process that hosts a whole fleet: shared memory that this process writes and the
-// launcher reads. The launcher owns it, so the contents survive when the process stops, exits or calls exec() without
-// notice. Each thread of the process has its own seat in it; in a seat, one program at a time has its turn.
+// Shared memory in which a process that hosts a whole fleet records which program has its turn, for the launcher. The
+// launcher owns the memory, so the contents survive when the process stops, exits or calls exec() without notice. Each
+// thread of the process has a seat of its own in it. In a seat, one program at a time has its turn.
 // Linux.   Threads: one thread writes to a seat, any thread reads. Program names are cut to 119 bytes, reasons to 255.
 #pragma once
 
