@@ -86,7 +86,7 @@ void find_agents(Planners& planners, const std::optional<std::filesystem::path>&
     const auto [program, is_new] = found.try_emplace(*planner.agent);
     if (is_new) program->second = checked_agent(*planner.agent, "--planner " + written(planner), hint_for(planner));
     planner.agent = program->second;
-    const bool needs_none = planner.spec.find('@') == std::string::npos;  // else AGENT is needed for the spec to be read right
+    const bool needs_none = planner.spec.find('@') == std::string::npos;  // else the spec needs its AGENT
     if (!own && planner.agent == stock_agent() && needs_none) planner.agent.reset();
   };
   const auto find_for_uav = [&](UavPlanner& planner) {

@@ -69,10 +69,10 @@ bool is_kept_without_checksum(const fs::path& scenario) try {
   return false;
 }
 
-/// Without a checksum, for example if an earlier version drew it, a world is drawn again the next time.
+/// Writes the checksum of a world. If that fails, the world is drawn again the next time.
 void keep_checksum(const fs::path& scenario) try {
   write_file_atomically(checksum_file(scenario), checksum_of(scenario), Readers::no_agents);
-} catch (const std::exception&) {  // a file is missing, as the run will say, or the disk is full: the world is whole
+} catch (const std::exception&) {  // a file is missing, as the run will report, or the disk is full
 }
 
 }  // namespace

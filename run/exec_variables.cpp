@@ -64,7 +64,7 @@ std::map<std::string, std::string> exec_variables(const FleetPlan& plan, const s
   variables.merge(part_variables(plan, program));
   if (plan.options.network) variables["SKEIN_NETWORK"] = *plan.options.network;
   if (!secure.keys.empty()) variables["SKEIN_SECURITY"] = secure.keys;
-  if (secure.user) variables["HOME"] = secure.out;  // this user cannot read the launcher's
+  if (secure.user) variables["HOME"] = secure.out;  // this user cannot read the launcher's HOME
   return variables;
 }
 

@@ -1,5 +1,5 @@
-// What a fleet's run does about programs under --debug: they are not children of the launcher, and the user may keep
-// them for as long as they like.
+// The part of FleetRun for programs under --debug. They are not children of the launcher, and the user may keep them
+// for any time.
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>

@@ -73,7 +73,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
     throw InputError(*reason + "; leave out --one-process");
   }
   if (!options.one_process) check_uavs_over_dds(plan.scenario.fleet.size());
-  // Now, because SKEIN_THREADS may be wrong: later the results folder has been emptied.
+  // Read now, because SKEIN_THREADS may be wrong, and later the results folder has been emptied already.
   if (options.one_process) plan.options.threads = threads_of(options.threads, plan.scenario.fleet.size());
   return plan;
 }

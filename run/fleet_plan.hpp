@@ -69,7 +69,7 @@ std::uint64_t draw_run_id();
 /// The part of a run's options that changes how its scenario is loaded.
 LoadOptions load_options(const RunOptions& options);
 
-/// Loads the scenario and resolves all options into a plan. @throws InputError for whatever is not valid in them.
+/// Loads the scenario and resolves all options into a plan. @throws InputError if one of them is not valid.
 FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
 
 /// Folder of the programs: SKEIN_BIN_DIR, else the folder of this executable.

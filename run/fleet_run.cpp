@@ -128,7 +128,8 @@ void FleetRun::watch() {
       continue;
     }
     limit = orders_->limit(until_notice(limit));
-    // Looks before wait(): if they ended because the run has, wait() returns the news of that before they are reported.
+    // Looks before wait(): if they ended because the run did, wait() returns the news of that before their end is
+    // handled.
     const auto debugged_ended = debug_->take_ended();
     handle_all(host_->wait(limit));
     for (const DebugWatch* watch : debugged_ended) on_debugged_end(*watch);
@@ -231,7 +232,7 @@ void FleetRun::tell_waiting() {
   view_.message(fmt::format("waiting for {} ({:.0f} s)", whom, *waited_s));
 }
 
-// ---- what sim_server and the station say ------------------------------------------------------------------------
+// ---- news from sim_server and the station -----------------------------------------------------------------------
 
 void FleetRun::hear(const status::Rejoined& rejoined) {
   orders_->returned(program_of(rejoined.member));
@@ -281,7 +282,7 @@ void FleetRun::hear(const status::Ended& ended) {
   leave_by_.set(leave_time());
 }
 
-// ---- what the launcher does about it ----------------------------------------------------------------------------
+// ---- reactions of the launcher ----------------------------------------------------------------------------------
 
 /// Restarts a killed program; continues a stopped one.
 void FleetRun::bring_back(const std::string& program) {
@@ -292,7 +293,7 @@ void FleetRun::bring_back(const std::string& program) {
   std::ofstream(spec->second.log, std::ios::app) << "[skein] a fault killed this program; here it starts again\n";
   try {
     host_->start(spec->second);
-  } catch (const std::exception& error) {  // the run has a result all the same
+  } catch (const std::exception& error) {  // the run has a result nevertheless
     complain(program, std::string("it cannot be started again: ") + error.what());
     tell_lost(programs::member_name(program));
   }
@@ -335,7 +336,8 @@ void FleetRun::end_all() {
   handle_all(host_->end_all(scaled(kGrace)));
 }
 
-/// After a fatal signal: where the program's backtrace and core are; empty: nowhere. Also adds this to the facts.
+/// Names the places of a program's backtrace and core after a fatal signal; empty: there are none. Also adds this to
+/// the facts.
 std::string FleetRun::crash_text(const std::string& program, const ExitStatus& exit) {
   const std::string where = crash_evidence(exit, programs_.at(program).log, plan_.options.cores);
   if (where.empty()) return {};
@@ -360,7 +362,8 @@ std::string FleetRun::program_of(const std::string& member) const {
 /// After Ctrl-C the run may not end in good order: then an exit with an error code is not a failure, but a crash is.
 bool FleetRun::left_as_asked(const ExitStatus& exit) const { return facts_.interrupted && exit.signal == 0; }
 
-/// Time for programs to leave after the run. After Ctrl-C before the first step: none, as they are not told of its end.
+/// Time for programs to leave after the run. After Ctrl-C before the first step: none, because nothing tells them that
+/// the run has ended.
 milliseconds FleetRun::leave_time() const {
   const milliseconds of_uavs = plan_.scenario.fleet.size() * kLeaveTimePerUav;
   if (!facts_.interrupted) return scaled(kLeaveTime + of_uavs);

@@ -73,7 +73,7 @@ class FleetRun {
   void on_debugged_end(const DebugWatch& watch);
   bool being_debugged() const;
 
-  // What sim_server and the station say.
+  // News from sim_server and the station.
   void hear(const status::Progress& progress);
   void hear(const status::Tally& tally);
   void hear(const status::WaitingFor& wait);
@@ -83,7 +83,7 @@ class FleetRun {
   void hear(const status::Ended& ended);
   void hear(const status::Report&) {}
 
-  // What the launcher does about it.
+  // Reactions of the launcher.
   void bring_back(const std::string& program);
   void settle(const std::string& program);
   void tell_lost(const std::string& member);

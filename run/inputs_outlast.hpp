@@ -1,5 +1,5 @@
-// A run with --force first deletes an earlier run's files from its results folder. What the run itself reads must not
-// be among them: the recording of a fork, the faults by hand of an earlier run, its copies of planners.   Any thread.
+// A run with --force first deletes an earlier run's files from its results folder. Files that the run itself reads must
+// not be among them: the recording of a fork, the faults by hand of an earlier run, its copies of planners. Any thread.
 #pragma once
 
 #include <filesystem>

@@ -8,7 +8,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-TEST(LeaveDeadline, IsBroughtForwardButNeverPutOff) {
+TEST(LeaveDeadline, BringForwardNeverPostponesIt) {
   const LeaveDeadline::Clock::time_point now;
   LeaveDeadline deadline;
   EXPECT_FALSE(deadline.is_set());
@@ -21,7 +21,7 @@ TEST(LeaveDeadline, IsBroughtForwardButNeverPutOff) {
   EXPECT_EQ(deadline.left(now + seconds(9)), seconds(0));
 }
 
-TEST(LeaveDeadline, DoesNotCountTimesWhenTheLauncherStoodStill) {
+TEST(LeaveDeadline, DoesNotCountTimeInWhichTheLauncherWasStopped) {
   const LeaveDeadline::Clock::time_point now;
   LeaveDeadline deadline;
   deadline.excuse(seconds(100), milliseconds(200));

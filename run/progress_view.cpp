@@ -44,7 +44,7 @@ void print_losses(std::ostream& out, const Json& losses) {
   }
 }
 
-/// Prints what became of each UAV, as a table.
+/// Prints a table with the outcome of each UAV.
 void print_uavs(std::ostream& out, const Json& result) {
   const Json faults = value_or(result, "faults", Json::array());
   std::vector<std::vector<std::string>> rows = {

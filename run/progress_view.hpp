@@ -18,7 +18,7 @@ class ProgressView {
   /// Writes to another stream from now on. @param out  must outlive this.
   void write_to(std::ostream& out, bool terminal);
 
-  /// @param wall_s  wall time since the programs started [s], for the speed.
+  /// @param wall_s  wall time since the fleet's first step [s], for the speed.
   void progress(const status::Progress& progress, double wall_s);
   /// Shows which programs the fleet waits for: on a terminal always, elsewhere only if `wait.due`.
   void waiting_for(const status::WaitingFor& wait);

@@ -138,7 +138,7 @@ TEST(Summary, ShowsTheShareOfTheAttainableScore) {
   EXPECT_EQ(unknown.str().find("attainable"), std::string::npos) << unknown.str();
 }
 
-TEST(ProgressView, NoUavIsInContactWithOneWhoseProgramIsLost) {
+TEST(ProgressView, AUavWhoseProgramIsLostIsNotInContact) {
   std::ostringstream out;
   ProgressView view(out, false);
   status::Progress status = progress(40.0, 38.0);
@@ -148,7 +148,7 @@ TEST(ProgressView, NoUavIsInContactWithOneWhoseProgramIsLost) {
   EXPECT_NE(out.str().find("in contact: beta, lost: alpha\n"), std::string::npos) << out.str();
 }
 
-TEST(ProgressView, TheTableShowsWhoseProgramIsLost) {
+TEST(ProgressView, TheTableShowsThatAProgramIsLost) {
   const Json uavs = Json::parse(R"([{"name": "ada", "role": "explorer", "alive": true, "program_lost": true},
                                     {"name": "bob", "role": "explorer", "alive": true, "program_lost": false},
                                     {"name": "cy", "role": "explorer", "alive": false, "program_lost": true}])");

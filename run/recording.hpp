@@ -15,7 +15,7 @@ namespace skein::cli {
 /// was cut off, because its program was killed, is not damaged.
 std::vector<std::string> recording_damage(const std::filesystem::path& dir);
 
-/// The digest of the run that a recording is of, by its metadata; empty: it says none.
+/// The digest of the recorded run, from the recording's metadata; empty: there is none.
 std::string recorded_digest(const mcap::Reader& recording);
 
 /// The parts in a run's folder that are not empty.

@@ -30,12 +30,12 @@ std::filesystem::path results_dir_of(const RunOptions& run, const std::string& s
 std::error_code make_results_folder(const std::filesystem::path& dir);
 
 /// An entry that keeps a study or a hunt from taking an existing folder as a new folder of its own: the first by name.
-/// Not counted are hidden files and lost+found, what a launcher that was killed has left of its reserved space, and
-/// logs: files with the extension .log, .out or .err, and the file that this process prints to, as a job of Slurm does.
+/// Ignores hidden files, lost+found, the reserved space that a killed launcher has left, and logs: files with the
+/// extension .log, .out or .err, and the file that this process prints to, as a job of Slurm does.
 /// @returns its name; empty: there is none, no such folder, or a folder that cannot be read, as ResultsDir will report.
 std::string foreign_entry(const std::filesystem::path& dir);
 
-/// What becomes of files with names of a run's files (run_folder::is_of_a_run()) that are in a results folder already.
+/// Treatment of files that are in a results folder already, under names of a run's files (run_folder::is_of_a_run()).
 enum class Earlier {
   refuse,  ///< the folder is not taken: the files may belong to another user
   remove,  ///< they are deleted, so that a stale report does not pass for one of this run (--force)

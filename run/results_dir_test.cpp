@@ -82,7 +82,7 @@ TEST(ResultsDir, AnExistingResultIsKeptUnlessForced) {
   EXPECT_FALSE(fs::exists(scratch.path() / "result.json"));
 }
 
-TEST(ResultsDir, OnlyWhatARunWritesIsRemoved) {
+TEST(ResultsDir, OnlyFilesThatARunWritesAreRemoved) {
   const OutDir scratch;
   const auto of_runs = {"station.report.json", "station.journal", "comm_router.counts",       "uav_agent-alpha.log",
                         "digests.csv",         "scene.json",      "station.report.json.tmp7", "result.json.tmp1234"};
