@@ -14,7 +14,8 @@
 namespace skein::view {
 
 inline constexpr std::size_t kMostRuns = 10'000;
-/// However large cubes become, those on different sides of y = 0 or z = 0 stay apart: four rows are never made fewer.
+/// The least limit on the number of runs: a map may need four rows, because cubes on different sides of y = 0 or z = 0
+/// never become one cube, however large they are made.
 inline constexpr std::size_t kLeastRuns = 4;
 
 /// The cubes x to x + length - 1 of the row (y, z).

@@ -117,7 +117,7 @@ TEST(CubeRuns, CoverTheLeavesOfTheTree) {
   EXPECT_GT(free, 100U);
 }
 
-TEST(CubeRuns, AreOfLargerCubesWhereThereAreTooMany) {
+TEST(CubeRuns, AreOfLargerCubesIfThereAreTooMany) {
   std::mt19937 random(4);
   std::size_t coarse = 0;
   for (int trial = 0; trial < 60; ++trial) {

@@ -25,7 +25,7 @@ class Door {
   /// Whether the Cookie header holds the key. @param host  as above
   bool opens(std::string_view cookie, std::string_view host) const;
   const Key& key() const { return key_; }
-  /// Value of a Set-Cookie header. Cookies are not kept apart by port, so the cookie's name has that of `host`.
+  /// Value of a Set-Cookie header. Browsers share cookies between ports, so the cookie's name has the port of `host`.
   std::string cookie(std::string_view host) const;
 
  private:

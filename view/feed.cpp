@@ -55,7 +55,7 @@ std::string Feed::next_clouds(FeedPlace& place, std::size_t most_bytes) const {
     const auto cloud = clouds_.find(name);
     if (cloud != clouds_.end() && cloud->second.number != got.version) news.emplace_back(&cloud->second, &got);
   }
-  // Of those that it never got, first the one whose latest version is the oldest.
+  // Of the clouds that the browser never got, the one whose latest version is the oldest comes first.
   std::ranges::sort(news, {}, [](const auto& one) { return std::pair(one.second->turn, one.first->number); });
   std::string list;
   for (const auto& [cloud, got] : news) {

@@ -45,8 +45,8 @@ class Story {
   std::vector<std::pair<double, std::string>> lines_;
 };
 
-/// Adds the fleet's poses; in the table, those of one time follow each other. @param heights  is filled. @returns the
-/// last poses.
+/// Adds the fleet's poses. In the table, the rows of one time are adjacent. @param heights  is filled.
+/// @returns the last poses.
 std::vector<ShownUav> tell_poses(const RunRecord& run, Story& story, Heights& heights) {
   heights.resize(run.uavs.size());
   std::vector<ShownUav> fleet(run.uavs.size());
@@ -148,7 +148,7 @@ void tell_captures(const RunRecord& run, Story& story) {
   for (const auto& [time_s, those] : deliveries) story.add(time_s, delivered_line(time_s, those));
 }
 
-/// The last line has the score of the result, with all its digits.
+/// Adds the scores. The last line has the score of the result, with all its digits.
 void tell_scores(const RunRecord& run, Story& story) {
   for (const results::ScoreRow& score : run.scores) {
     story.add(score.time_s, score_line(score.time_s, static_cast<std::size_t>(score.points), score.score));

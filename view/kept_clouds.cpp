@@ -31,7 +31,7 @@ double height_at(const std::map<double, double>& heights, double time_s) {
 std::string scans_of(const std::string& uav) { return topics::cloud(uav).name.substr(2); }
 
 bool has_any(const mcap::Reader& reader, const std::map<std::string, std::size_t>& wanted) {
-  bool any = !reader.complete();  // cut off: there is no summary
+  bool any = !reader.complete();  // a recording that is cut off has no summary
   reader.summary([&](const mcap::RawRecord& record) {
     if (record.opcode != mcap::Opcode::channel) return;
     const auto channel = mcap::parse<mcap::Channel>(record.content);

@@ -30,7 +30,7 @@ struct LookOrder {
   bool operator==(const LookOrder&) const = default;
 };
 
-/// {"do": "look", "lidar": ["jurong"], "map": "jurong"}; without the key of what is not requested.
+/// {"do": "look", "lidar": ["jurong"], "map": "jurong"}; the key of data that is not requested is left out.
 std::string text_of(const LookOrder& order);
 /// @returns nullopt unless the text is exactly such an order: known keys only, not too many names, and none longer than
 /// a UAV's name may be.

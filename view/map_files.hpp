@@ -15,8 +15,8 @@ namespace skein::view {
 
 inline constexpr std::size_t kMostMapsRead = 240;
 
-/// Reads all map files of one UAV: its program writes a new file at each start. A file that is cut off counts as far as
-/// it goes.
+/// Reads all map files of one UAV: its program writes a new file at each start. Of a file that is cut off, the complete
+/// snapshots count.
 /// @param height_m  height of the UAV at a time: the level at which free space is shown.
 /// @returns nullopt when there are no snapshots, or when a file is damaged.
 std::optional<MapInTime> read_maps(const std::filesystem::path& dir, const std::string& uav,

@@ -12,7 +12,7 @@
 namespace skein::view {
 namespace {
 
-/// Cubes that are present in the newest snapshot, and the time since when they are.
+/// Cubes of the newest snapshot, and the time of the snapshot in which they appeared.
 struct Living {
   CubeRun run;
   double since_s = 0.0;
@@ -101,7 +101,8 @@ std::vector<RunsStep> bounded_lifetimes(std::vector<RunsAt> snapshots, double& c
     for (RunsAt& snapshot : snapshots) snapshot.runs = coarser_runs(snapshot.runs);
     cell_m *= 2.0;
   };
-  // Eight cubes around the origin stay eight, however large they become: that is the least number of runs.
+  // Eight cubes around the origin stay eight, however large they are made. So the number of runs has no lower limit
+  // than this.
   constexpr std::size_t kLeast = 8;
   const auto too_long = [&](const RunsAt& snapshot) { return snapshot.runs.size() > std::max(most_runs, kLeast); };
   while (std::ranges::any_of(snapshots, too_long)) enlarge();

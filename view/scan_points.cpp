@@ -13,7 +13,7 @@ namespace {
 constexpr int kKeyBits = 21;
 constexpr float kPerMetre = 10.0F, kMostNumber = 32'767.0F;
 
-/// Whether a point can be told in 16-bit decimetres; false also for a point that is not finite.
+/// Whether a point can be encoded in 16-bit decimetres; false also for a point that is not finite.
 bool can_be_told(const Eigen::Vector3f& p_W) {
   return p_W.allFinite() && p_W.cwiseAbs().maxCoeff() * kPerMetre < kMostNumber;
 }

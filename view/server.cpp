@@ -157,7 +157,7 @@ struct Server::Impl {
     }
   }
 
-  /// Any program that reaches the port may connect and send nothing: closes the oldest connection without the key.
+  /// Closes the oldest connection without the key, since any program that reaches the port may connect and send nothing.
   /// @returns false when there is none.
   bool make_room() {
     const auto stranger = std::ranges::find(visitors, false, [](const auto& visitor) { return visitor->has_key; });

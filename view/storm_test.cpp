@@ -217,7 +217,7 @@ TEST_P(DrawnStorm, OfStrangersTellsThemNothingAndKeepsNoViewerOut) {
 }
 
 // These viewers have the key, and send orders and other texts.
-TEST_P(DrawnStorm, OfFramesIsObeyedWhereItIsAnOrderAndEndsOtherwise) {
+TEST_P(DrawnStorm, OfFramesDoesNotKeepTheServerFromObeyingOrders) {
   Random random(GetParam());
   fill();
   const auto good = follower();

@@ -13,7 +13,7 @@
 namespace skein::view {
 namespace {
 
-/// Beyond the bounds of any scene: coordinates are clamped to it.
+/// Coordinates are clamped to this distance, which is beyond the bounds of any scene.
 constexpr double kFarthest_m = 1e6;
 constexpr double kQualityUnits = 1e6, kPartUnits = 1000.0;
 

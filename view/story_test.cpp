@@ -8,7 +8,7 @@
 namespace skein::view {
 namespace {
 
-TEST(StoryLines, AreJsonWhateverTheNames) {
+TEST(StoryLines, AreJsonForAnyNames) {
   const Json line = parse_json(event_line(1.25, "joined", "a\"b\n\xff", ""));
   EXPECT_EQ(line["k"], "event");
   EXPECT_EQ(line["t"], 1.25);

@@ -14,7 +14,7 @@ namespace skein::view {
 /// Where two runs begin to differ.
 struct Parting {
   std::optional<double> time_s;     ///< none: they do not differ, or it is not known
-  std::vector<std::string> fields;  ///< what differs first: "changi position"
+  std::vector<std::string> fields;  ///< the values that differ first: "changi position"
   std::string unknown;              ///< why it is not known; empty: it is known
 };
 
