@@ -101,8 +101,7 @@ std::vector<RunsStep> bounded_lifetimes(std::vector<RunsAt> snapshots, double& c
     for (RunsAt& snapshot : snapshots) snapshot.runs = coarser_runs(snapshot.runs);
     cell_m *= 2.0;
   };
-  // Eight cubes around the origin stay eight, however large they are made. So the number of runs has no lower limit
-  // than this.
+  // Eight cubes around the origin stay eight, however large they are made, so a lower limit could not be kept.
   constexpr std::size_t kLeast = 8;
   const auto too_long = [&](const RunsAt& snapshot) { return snapshot.runs.size() > std::max(most_runs, kLeast); };
   while (std::ranges::any_of(snapshots, too_long)) enlarge();

@@ -157,8 +157,8 @@ struct Server::Impl {
     }
   }
 
-  /// Closes the oldest connection without the key, since any program that reaches the port may connect and send nothing.
-  /// @returns false when there is none.
+  /// Closes the oldest connection without the key, because any program that reaches the port may connect and send
+  /// nothing. @returns false when there is none.
   bool make_room() {
     const auto stranger = std::ranges::find(visitors, false, [](const auto& visitor) { return visitor->has_key; });
     if (stranger == visitors.end()) return false;
