@@ -95,7 +95,7 @@ inline constexpr TopicInfo kBattery{"/{id}/battery", "sensor_msgs/msg/BatterySta
 /// The flight controller's estimate of the wind; only if the scenario's conditions have wind.
 inline constexpr TopicInfo kWind{"/{id}/wind", "geometry_msgs/msg/TwistStamped", Direction::to_agent, kStateDepth,
                                  "every exchange, if there is wind; linear: velocity of the air in W"};
-/// What the UAV's radio measures; only if the scenario's conditions have path loss.
+/// Measurements of the UAV's radio; only if the scenario's conditions have path loss.
 inline constexpr TopicInfo kRadioLinks{"/{id}/radio_links", "skein_msgs/msg/RadioLinks", Direction::to_agent,
                                        kStateDepth, "every exchange, if there is path loss; the open links"};
 inline constexpr TopicInfo kCloud{

@@ -1,4 +1,4 @@
-// How many threads a fleet in one process gets. Results do not depend on it.   Threads: any.
+// The number of threads that a fleet in one process gets. Results do not depend on it.   Threads: any.
 #pragma once
 
 #include <cstddef>

@@ -52,7 +52,7 @@ std::vector<std::filesystem::path> agent_files(const FleetPlan& plan);
 /// The file of the program that runs a whole fleet with the first of these agent programs in one process.
 std::filesystem::path fleet_file(const FleetPlan& plan);
 
-/// Why a fleet cannot fly in one process, as a message; nullopt: it can.
+/// The reason why a fleet cannot fly in one process, as a message; nullopt: it can.
 std::optional<std::string> needs_processes(const FleetPlan& plan);
 
 /// Folders and user of a program in a secured fleet (cli/secure/security.hpp).

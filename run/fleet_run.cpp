@@ -21,7 +21,7 @@ namespace skein::cli {
 namespace {
 
 using std::chrono::milliseconds;
-/// How long the programs may take to write their reports and leave after sim_server has left. Beside many other busy
+/// Time in which the programs must write their reports and leave after sim_server has left. Beside many other busy
 /// programs, with a low priority, they need over 10 s.
 constexpr milliseconds kLeaveTime{30000};
 /// Additional time for each UAV, whose program writes its map: in one process, the programs take turns.

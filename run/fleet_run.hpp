@@ -43,7 +43,7 @@ class FleetRun {
   /// execute faults that concern programs. @param containers  the follower process of each container.
   void fly_in_containers(const std::vector<ProgramSpec>& containers, const std::filesystem::path& out);
 
-  /// What the launcher knows of the run so far; for its result.
+  /// The launcher's knowledge of the run so far, for the run's result.
   results::RunFacts& facts() { return facts_; }
   ProgressView& view() { return view_; }
   /// The reports that came through the status pipes, by program.

@@ -15,7 +15,7 @@ constexpr std::uint64_t open_files_of_watcher(std::uint64_t programs, std::uint6
   return 10 + 4 * programs + domains;  // of each program two pipes, the log and the pidfd
 }
 
-/// How many open files the process of the fleet with most of them needs.
+/// The number of open files that a process of the fleet needs at most.
 OpenFilesNeed open_files_need(const FleetPlan& plan);
 
 /// Raises this process's limit, which the programs inherit, to what the fleet needs, as far as the system permits. Of a

@@ -13,11 +13,11 @@
 
 namespace skein::cli {
 
-/// Where a run goes when the user names no folder: runs/<scenario>-<planner>-<seed> below the current folder.
+/// The results folder when the user names none: runs/<scenario>-<planner>-<seed> below the current folder.
 std::filesystem::path default_results_dir(const std::string& scenario, const std::string& planner, std::uint64_t seed);
 
-/// The first of `base`, `base`-2, `base`-3, ... that is not there yet, or is an empty folder: where a run goes if the
-/// user names no folder, so that a command can be repeated. Creates nothing.
+/// The first of `base`, `base`-2, `base`-3, ... that is not there yet, or is an empty folder: the results folder if the
+/// user names none, so that a command can be repeated. Creates nothing.
 std::filesystem::path free_results_dir(const std::filesystem::path& base);
 
 /// The folder that the user names, or else a free one; with --force the usual one. Creates nothing. Another launcher

@@ -16,7 +16,7 @@
 
 namespace skein::view {
 
-/// What a browser has got so far.
+/// The data that a browser has got so far.
 struct FeedPlace {
   bool scene = false;
   std::size_t lines = 0;

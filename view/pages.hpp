@@ -13,7 +13,8 @@ namespace skein::view {
 
 /// File of the page's script. @throws InputError when it is missing.
 std::filesystem::path find_script();
-/// What the server serves for a run. @param script  file of the script. @throws InputError when it cannot be read.
+/// The content that the server serves for a run. @param script  file of the script.
+/// @throws InputError when it cannot be read.
 Site site_of(const std::string& title, const std::filesystem::path& script);
 
 /// A self-contained page that shows one or two finished runs without any request: page, script and flight in one file.

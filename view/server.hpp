@@ -24,7 +24,7 @@
 
 namespace skein::view {
 
-/// What the server serves.
+/// The content that the server serves.
 struct Site {
   std::string page;    ///< HTML
   std::string script;  ///< JavaScript

@@ -11,7 +11,7 @@
 
 namespace skein::view {
 
-/// Where two runs begin to differ.
+/// The time at which two runs begin to differ.
 struct Parting {
   std::optional<double> time_s;     ///< none: they do not differ, or it is not known
   std::vector<std::string> fields;  ///< the values that differ first: "changi position"

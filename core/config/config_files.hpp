@@ -1,4 +1,4 @@
-// Where configuration files are. Reads the file system and the environment; safe from any thread.
+// Finds configuration files. Reads the file system and the environment; safe from any thread.
 #pragma once
 
 #include <filesystem>

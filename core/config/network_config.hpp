@@ -1,4 +1,4 @@
-// Which network carries each DDS domain of a fleet. By default no message leaves the host. In containers, each UAV's
+// The network that carries each DDS domain of a fleet. By default no message leaves the host. In containers, each UAV's
 // domain has a network of its own, to which only the UAV's programs, sim_server and the router are connected.
 //
 //   usual: host                                          # for all domains that are not listed
@@ -15,7 +15,7 @@
 
 namespace skein {
 
-/// How the programs in one domain reach each other.
+/// The way in which the programs in one domain reach each other.
 struct DomainNetwork {
   static constexpr const char* kHost = "host";  ///< no message leaves the host
   static constexpr const char* kAll = "all";    ///< the DDS vendor chooses the interfaces

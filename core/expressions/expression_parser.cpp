@@ -77,7 +77,7 @@ bool looks_back(Op op) { return op == Op::gain || op == Op::rises || op == Op::f
 
 }  // namespace
 
-// ---- from the loosest to the tightest ---------------------------------------------------------------------------
+// ---- operators, from the loosest to the tightest ----------------------------------------------------------------
 
 Expression ExpressionParser::condition() {
   const std::size_t begin = at();
@@ -304,7 +304,7 @@ std::string ExpressionParser::known(const std::string& name, std::size_t at, con
   fail(at, "there is no " + what + " '" + name + "'; " + suggestion(name, all));
 }
 
-// ---- wholes -----------------------------------------------------------------------------------------------------
+// ---- whole texts ------------------------------------------------------------------------------------------------
 
 double ExpressionParser::constant(const Unit& unit, const std::string& what) {
   const std::size_t begin = at();

@@ -14,7 +14,7 @@ namespace skein {
 
 struct Scenario;
 
-/// What may stand between the parentheses of a signal.
+/// Kinds of arguments of a signal.
 enum class SignalArgument {
   uav,
   node,     ///< a UAV, or "gcs"

@@ -166,7 +166,7 @@ std::string fault_path(std::size_t index);
 std::string fault_kind(const Fault& fault);
 std::string fault_target(const Fault& fault);
 
-/// Which links blackouts, outages and partitions cut in the exchange at this tick: 1 = cut. nullopt when there is
+/// The links that blackouts, outages and partitions cut in the exchange at this tick: 1 = cut. nullopt when there is
 /// nothing to cut.
 std::optional<LinkMatrix<std::uint8_t>> cut_links(const FaultPlan& plan, const Scenario& scenario, Tick tick);
 

@@ -1,4 +1,4 @@
-// What a UAV's program reports about its current action and the reason for it (topic /{id}/activity). Only people use
+// Reports of a UAV's program about its current action and the reason for it (topic /{id}/activity). Only people use
 // these reports: no program of the fleet acts on them, and no digest includes them.   Frame W.   SI.   Pure; any
 // thread.
 #pragma once

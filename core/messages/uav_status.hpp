@@ -1,4 +1,4 @@
-// What the on-board software receives in addition to odometry: uncertainty of the pose, battery status, quality of
+// Data that the on-board software receives in addition to odometry: uncertainty of the pose, battery status, quality of
 // links.
 // Frame: W world (ENU).  Units: SI, radians.
 #pragma once

@@ -1,4 +1,4 @@
-// Where fields of a shared block lie: apart from each other, aligned, and as their description says.
+// The fields of a shared block do not overlap, are aligned, and have the places that their description names.
 #include "core/planners/block_layout.hpp"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 
 namespace skein {
 
-/// What is wrong with a `queue_bytes` without `bandwidth_bit_s`.
+/// The error of a `queue_bytes` without `bandwidth_bit_s`.
 inline constexpr const char* kNeedsBandwidth = "needs bandwidth_bit_s: without it no message waits in a queue";
 
 /// Adds an error for each node that does not exist or is named twice, and for an effect that changes no link.

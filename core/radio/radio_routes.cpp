@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kAll = "all";
 
-/// What a wire topic in one node's domain is already used for.
+/// The use that a wire topic already has in one node's domain.
 struct Use {
   enum class Kind {
     standard,      ///< topic of the table in core/topics.hpp that the node must not send

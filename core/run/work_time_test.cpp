@@ -92,7 +92,7 @@ TEST(WorkTime, AUavWithoutOpenWorkIsNeverFrozen) {
   }
 }
 
-TEST(WorkTime, AllSecondsOfAStretchWithoutWorkCountIfItHas60) {
+TEST(WorkTime, AStretchWithoutWorkCountsAsAWholeFrom60SecondsOn) {
   for (const std::size_t stretch : {59u, 60u, 61u, 200u}) {
     WorkTrack track = open_track(stretch + 20);
     for (std::size_t s = 0; s < 10; ++s) track.done[s] = track.done[stretch + 10 + s] = 1.0;

@@ -79,7 +79,7 @@ TEST_F(ScenarioReader, OverridesReplaceTheFilesValues) {
   EXPECT_NE(complaint(scenario("{family: towers}")).find("--duration"), std::string::npos);
 }
 
-TEST_F(ScenarioReader, ASwitchOverridesItsPresetWhateverTheOrder) {
+TEST_F(ScenarioReader, ASwitchOverridesItsPresetInAnyOrder) {
   const Scenario paper =
       load_scenario(scenario("{family: towers}", "rules: {collision_voids_score: false, preset: paper}\n"), options_);
   EXPECT_FALSE(paper.rules.unnormalised_displacement);

@@ -1,4 +1,4 @@
-// Where fleets start in procedural scenes.
+// The start places of fleets in procedural scenes.
 #include "core/scenario/scene_families.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// How well one exposure shows a surface point: field of view, motion blur, resolution (q_blur, q_res).
+// Quality with which one exposure shows a surface point: field of view, motion blur, resolution (q_blur, q_res).
 // The camera sits on a gimbal that removes roll and pitch of the body.
 // Frames: W world (ENU), B body (FLU), C camera (x optical axis, y left, z up).  Units: SI, radians; mm per pixel
 // where the name says so.  Source: CARIC, the sections on blur and resolution; the contest's formulas in docs/rules.md.

@@ -1,4 +1,4 @@
-// Which variables of the launcher's environment the programs of a fleet inherit.
+// The programs of a fleet inherit only some variables of the launcher's environment.
 #include "process/host/environment.hpp"
 
 #include <gtest/gtest.h>

@@ -22,7 +22,7 @@ std::string open_files_hint(const std::error_code& code);
 /// server joins all domains. From measurements with both vendors and 5 UAVs.
 constexpr std::uint64_t ample_open_files(std::uint64_t domains) { return 20 + 9 * domains; }
 
-/// How many open files a process needs.
+/// The number of open files that a process needs.
 struct OpenFilesNeed {
   std::uint64_t least;  ///< with fewer, it cannot start
   std::uint64_t ample;  ///< with fewer, it may fail: an estimate, rounded up
