@@ -72,7 +72,7 @@ TEST(DomainBlock, ABlockOutsideTheRangeOfDomainsIsRefused) {
   EXPECT_THROW(DomainBlock(std::nullopt, kLastDomain + 1, own_realm()), InputError);
 }
 
-TEST(DomainBlock, AFullHostIsRefused) {
+TEST(DomainBlock, ABlockIsRefusedIfNoDomainIsFree) {
   const DomainBlock all(std::nullopt, kLastDomain, own_realm());
   EXPECT_THROW(DomainBlock(std::nullopt, 1, own_realm()), InputError);
 }

@@ -216,7 +216,7 @@ TEST_F(FleetsTest, AFleetIsChosenByItsFolder) {
   }
 }
 
-TEST_F(FleetsTest, TheStateOfAProcessIsDebuggedStoppedOrRuns) {
+TEST_F(FleetsTest, TheStateOfAProcessIsDebuggedStoppedOrRunning) {
   const Sham process({"sh", "-c", "sleep 1000"}, {"PATH=/usr/bin:/bin"});
   const std::string debugger = process_name(::getpid()) + " (process " + std::to_string(::getpid()) + ")";
   EXPECT_EQ(state_text(process.pid()), "debugged by " + debugger);

@@ -81,7 +81,7 @@ std::string refusal_of_out(const std::filesystem::path& out, int control_fd = -1
   return "";
 }
 
-TEST(Program, WithoutALauncherTheFolderOfOutMustBeThere) {
+TEST(Program, WithoutALauncherTheOutputFolderMustExist) {
   const ScratchFolder scratch;
   const std::filesystem::path folder = scratch.path(), missing = folder / "none/x", file = folder / "file";
   std::ofstream(file) << "mine";
@@ -96,7 +96,7 @@ TEST(Program, WithoutALauncherTheFolderOfOutMustBeThere) {
   EXPECT_EQ(refusal_of_out(missing, -1, 1), "") << "a launcher gets the report through the pipe";
 }
 
-TEST(Program, WithoutALauncherTheFolderOfOutMustTakeFiles) {
+TEST(Program, WithoutALauncherTheOutputFolderMustBeWritable) {
   constexpr uid_t kNobody = 65534;  // root may write to every folder
   constexpr rlim_t kEnoughFiles = 64;
   const ScratchFolder scratch;

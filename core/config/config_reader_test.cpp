@@ -154,7 +154,7 @@ TEST(ConfigReader, ATextInAnotherEncodingIsRefusedWithItsLine) {
       << "a byte order mark is accepted";
 }
 
-TEST(ConfigReader, NumbersAreStrict) {
+TEST(ConfigReader, NumbersHaveAStrictSyntax) {
   for (const char* number : {"1.", ".5", "1e3", "+2", "-0", "007"}) {
     EXPECT_EQ(complaint("real: " + std::string(number)), "accepted") << number;
   }
@@ -201,7 +201,7 @@ TEST(ConfigReader, FindsALetterOfATextInItsLines) {
   EXPECT_EQ(place_of_x("text: abc"), "test:1:10: text: here") << "a text without the letter: the place behind its end";
 }
 
-TEST(ConfigReader, AnEmptyOptionalIsNone) {
+TEST(ConfigReader, AnEmptyValueLeavesAnOptionalUnset) {
   EXPECT_FALSE(parse("maybe:").maybe.has_value());
   EXPECT_FALSE(parse("maybe: ~").maybe.has_value());
 }

@@ -90,7 +90,7 @@ Drawn drawn(std::mt19937_64& random, int depth) {
           "(" + a.opposite + (all ? ") or (" : ") and (") + b.opposite + ")"};
 }
 
-TEST_F(Expressions, TheSignOfAMarginIsTheTruthAndANegationChangesTheSign) {
+TEST_F(Expressions, TheSignOfAMarginShowsTheTruthAndANegationChangesTheSign) {
   std::mt19937_64 random(1);
   int decided = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -221,7 +221,7 @@ TEST_F(Expressions, LongChainsAreReadAndLongerOnesRefused) {
   }
 }
 
-TEST_F(Expressions, DuringARunOnlySignalsKnownThenMayBeNamed) {
+TEST_F(Expressions, ALiveExpressionMayUseOnlySignalsKnownDuringARun) {
   scope_.live_only = true;
   for (const SignalInfo& info : signal_table()) {
     try {

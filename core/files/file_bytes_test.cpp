@@ -73,7 +73,7 @@ TEST_F(FileBytes, NextLineReadsTheSameLinesAsGetline) {
   }
 }
 
-TEST_F(FileBytes, LinesOfAFileFromWindowsAreTheSame) {
+TEST_F(FileBytes, LinesOfAFileFromWindowsHaveNoCarriageReturns) {
   std::ofstream(folder_ / "text") << "one\r\n\r\nt\rwo\r\r\nthree";
   std::ifstream in = open_text(folder_ / "text");
   std::vector<std::string> lines;

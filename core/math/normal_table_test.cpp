@@ -77,7 +77,7 @@ TEST(NormalTable, IsMonotonicAndSymmetric) {
 }
 
 /// The numbers must be the same on each machine, so that recorded runs repeat.
-TEST(NormalTable, KeepsItsNumbers) {
+TEST(NormalTable, YieldsTheRecordedNumbers) {
   const NormalTable& normal = NormalTable::get();
   EXPECT_EQ(normal(0x123456789abcdef0), 0x1.ce0771d19a201p+0);
   EXPECT_EQ(normal(0xfedcba9876543211), -0x1.6d13d97af04ep-8);

@@ -26,7 +26,7 @@ TEST(RandomStream, EveryPartOfTheKeyMatters) {
 
 /// Computed by an independent program. Runs recorded with one version of Skein must repeat with the next: these
 /// numbers may never change.
-TEST(RandomStream, KeepsItsNumbers) {
+TEST(RandomStream, YieldsTheRecordedNumbers) {
   RandomStream random(1, "start_offset", 0, 0);
   EXPECT_EQ(random.bits(), 16956927275007445757u);
   EXPECT_EQ(random.uniform(), 0.530873220995921);

@@ -84,7 +84,7 @@ TEST_F(ConditionsFile, TheOptionReplacesWholeSections) {
   EXPECT_EQ(conditions_text(conditions_preset("breezy")), "breezy");
 }
 
-TEST(LidarSigma, IsThatOfTheConditionsPage) {
+TEST(LidarSigma, HasTheValuesOfTheConditionsPage) {
   const LidarConditions breezy = conditions_preset("breezy").lidar;
   EXPECT_NEAR(lidar_sigma_m(breezy, 20.0, 0.0), 0.020, 1e-12);
   EXPECT_NEAR(lidar_sigma_m(breezy, 20.0, 1.0), 0.025, 1e-12);  // the noise grows by 1 and 0.75 mm per metre

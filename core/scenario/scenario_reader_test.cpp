@@ -61,7 +61,7 @@ TEST_F(ScenarioReader, FillsTheFleetFromItsVehicles) {
   EXPECT_EQ(read.fleet[1].vehicle.mass_kg, 1.5);
 }
 
-TEST_F(ScenarioReader, NamesNodes) {
+TEST_F(ScenarioReader, GivesTheNamesOfNodes) {
   const Scenario read = load_scenario(scenario("{family: towers}"), options_);
   EXPECT_EQ(read.node_name(kStationNode), "gcs");
   EXPECT_EQ(read.node_name(Node{2}), "changi");

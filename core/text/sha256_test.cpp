@@ -26,7 +26,7 @@ TEST(Sha256, NumbersAreEightLittleEndianBytes) {
   EXPECT_EQ(Sha256().add(-1).hex(), Sha256().add(std::numeric_limits<std::uint64_t>::max()).hex());
 }
 
-TEST(Sha256, DifferentFieldsDiffer) {
+TEST(Sha256, DifferentFieldsHaveDifferentDigests) {
   EXPECT_NE(Sha256().add("ab").add("c").hex(), Sha256().add("a").add("bc").hex());
   EXPECT_NE(Sha256().add(0.0).hex(), Sha256().add(-0.0).hex());
   EXPECT_NE(Sha256().add(1).hex(), Sha256().add(1.0).hex());

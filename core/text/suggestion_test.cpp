@@ -35,7 +35,7 @@ TEST(Joined, LongListsEndWithANumber) {
   EXPECT_EQ(joined_first(words, 5), "0, 1, 2, 3 and 7 more");
 }
 
-TEST(Counted, OneHasNoPlural) {
+TEST(Counted, OneTakesTheSingular) {
   EXPECT_EQ(counted(0, "flight"), "0 flights");
   EXPECT_EQ(counted(1, "flight"), "1 flight");
   EXPECT_EQ(counted(2, "flight"), "2 flights");

@@ -43,7 +43,7 @@ TEST(StatusLines, EachKindOfLineHasAnExample) {
   for (std::size_t i = 0; i < examples().size(); ++i) EXPECT_EQ(examples()[i].first.index(), i);
 }
 
-TEST(StatusLines, TheTextOnThePipeStays) {
+TEST(StatusLines, TheTextOnThePipeDoesNotChange) {
   for (const auto& [line, text] : examples()) EXPECT_EQ(status::line_json(line).dump(), text);
 }
 
@@ -90,7 +90,7 @@ TEST(StatusLines, DamagedLinesAreReadWithTheirIntactValues) {
   EXPECT_TRUE(std::get<status::Report>(*status::read_line(R"({"type":"report","report":3})")).report.is_object());
 }
 
-TEST(Orders, TheTextOnThePipeStaysAndIsReadBack) {
+TEST(Orders, TheTextOnThePipeDoesNotChangeAndIsReadBack) {
   EXPECT_EQ(orders::text_of(orders::Stop{}), "stop");
   EXPECT_EQ(orders::text_of(orders::Lost{"jurong"}), "lost jurong");
   EXPECT_TRUE(std::holds_alternative<orders::Stop>(*orders::read_line("stop")));
