@@ -49,7 +49,7 @@ struct LidarConfig {
   std::optional<DroppedSectors> dropped_sectors;  ///< drawn only with a seed other than 0
 };
 
-/// Gains of CARIC's position controller (`planners.md` D, golden position_control).
+/// Gains of CARIC's position controller (docs/rules.md, golden position_control).
 struct PositionControlConfig {
   double omega_xy = 2.0, omega_z = 4.0;
   double zeta_xy = 1.0, zeta_z = 1.1;
