@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 #include "core/files/file_bytes.hpp"
 #include "core/scenario/drawn_worlds.hpp"
@@ -26,6 +27,19 @@ std::string file_name(std::string name) {
       name.begin(), name.end(),
       [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-'; }, '_');
   return name;
+}
+
+/// File names for boxes, in their order: where several names would give the same one, the later ones end with a number.
+std::vector<std::string> file_names(const std::vector<OrientedBox>& boxes) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::string plain = file_name(boxes[i].name);
+    std::string name = plain;
+    for (std::size_t number = i; !taken.insert(name).second; ++number) name = plain + "_" + std::to_string(number);
+    names.push_back(name);
+  }
+  return names;
 }
 
 std::string origin(const SceneConfig& scene) {
@@ -64,8 +78,9 @@ std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& sc
                    std::to_string(scene.boxes.size()) + (scene.boxes.size() == 1 ? " box" : " boxes"),
                    to_box_description(scene.boxes)});
   const std::string scenario_yaml = scenario_text(scenario, files[0].path, files[1].path, files[2].path);
-  for (const OrientedBox& box : scene.boxes) {
-    files.push_back({boxes / (file_name(box.name) + ".stl"), "surface of a box", to_stl(box_surface(box))});
+  const std::vector<std::string> box_files = file_names(scene.boxes);
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    files.push_back({boxes / (box_files[i] + ".stl"), "surface of a box", to_stl(box_surface(scene.boxes[i]))});
   }
   files.push_back({name + ".yaml", "the scenario, " + counted(scenario.fleet.size(), "UAV"), scenario_yaml});
   return files;

@@ -24,7 +24,7 @@ struct ExportedFile {
 ///   models/<name>/<name>.stl                        all triangles, in order
 ///   models/<name>/<name>_interest_points.pcd        all points, in order
 ///   models/<name>/bounding_boxes/box_description.yaml, and <box>.stl for each box
-/// Pure.
+/// Of boxes whose names give the same name of a file, the later ones have a number behind it. Pure.
 std::vector<ExportedFile> scene_export(const Scenario& scenario, const Scene& scene);
 
 /// A drawing of the scene (scene_picture.hpp): <name>.svg. Pure.

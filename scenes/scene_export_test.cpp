@@ -105,6 +105,19 @@ TEST_F(SceneExport, HasTheBenchmarksLayout) {
                                              "models/a_b_c/bounding_boxes/box1.stl", "a_b_c.yaml"}));
 }
 
+TEST_F(SceneExport, EachBoxHasItsOwnFile) {
+  Scene scene;
+  scene.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  for (const char* name : {"a b_2", "a b", "a_b", "a/b"}) {
+    scene.boxes.push_back({name, {1, 2, 3}, {4, 5, 6}, Matrix3d::Identity()});
+  }
+  std::vector<std::string> names;
+  for (const ExportedFile& file : scene_export(scenario_of("towers", 0), scene)) {
+    if (file.summary == "surface of a box") names.push_back(file.path.stem().string());
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"a_b_2", "a_b", "a_b_3", "a_b_4"}));
+}
+
 TEST_F(SceneExport, AFileInPlaceOfAFolderIsReported) {
   write("x", "a file");
   try {
