@@ -4,6 +4,7 @@
 
 #include "core/scenario/scenario_reader.hpp"
 #include "core/scenario/scene_families.hpp"
+#include "scenes/files/box_file.hpp"
 #include "scenes/files/scratch_files.hpp"
 #include "scenes/scene_source.hpp"
 #include "tests/support/places.hpp"
@@ -116,6 +117,18 @@ TEST_F(SceneExport, EachBoxHasItsOwnFile) {
     if (file.summary == "surface of a box") names.push_back(file.path.stem().string());
   }
   EXPECT_EQ(names, (std::vector<std::string>{"a_b_2", "a_b", "a_b_3", "a_b_4"}));
+}
+
+TEST_F(SceneExport, ThePictureShowsStructureFarFromTheOrigin) {
+  for (const double y : {0.0, 5000.0, -90'000.0}) {
+    Scene scene;
+    scene.mesh = box_surface({"tower", {0.0, y, 1000.0}, {2000.0, 2000.0, 2000.0}, Matrix3d::Identity()});
+    const std::string svg = scene_picture_file(scenario_of("towers", 0), scene).content;
+    const std::size_t from_above = svg.rfind("<g ");
+    for (const std::string& view : {svg.substr(0, from_above), svg.substr(from_above)}) {
+      EXPECT_NE(view.find(")\" d=\"M"), std::string::npos) << y << ": no runs of any shade in " << view;
+    }
+  }
 }
 
 TEST_F(SceneExport, AFileInPlaceOfAFolderIsReported) {

@@ -32,6 +32,8 @@ class View {
       seen.extend(Vector2d(right_.dot(p), up_.dot(p)));
     }
     middle_ = seen.center();
+    reach_ = 4.0 * shown.diagonal().norm();
+    start_ = into_.dot(shown.center()) - 0.75 * reach_;
     scale_ = std::min(kWide / seen.sizes().x(), kHigh / seen.sizes().y());
   }
 
@@ -40,13 +42,14 @@ class View {
     return {0.5 * kWide + scale_ * (right_.dot(p_W) - middle_.x()),
             0.5 * kHigh - scale_ * (up_.dot(p_W) - middle_.y())};
   }
-  /// Start of a pixel's ray, far in front of the scene. The direction is into().
+  /// Start of a pixel's ray, three diagonals in front of the middle of the scene: even rays to what is below the ground
+  /// start above it. The direction is into(), the length reach().
   Vector3d origin(int x, int y) const {
-    constexpr double kFar = 1000.0;
     return (middle_.x() + (x + 0.5 - 0.5 * kWide) / scale_) * right_ +
-           (middle_.y() - (y + 0.5 - 0.5 * kHigh) / scale_) * up_ - kFar * into_;
+           (middle_.y() - (y + 0.5 - 0.5 * kHigh) / scale_) * up_ + start_ * into_;
   }
   const Vector3d& into() const { return into_; }
+  double reach() const { return reach_; }  ///< [m]
   /// Pixels per metre, for lengths across the direction of view.
   double scale() const { return scale_; }
 
@@ -54,6 +57,7 @@ class View {
   Vector3d right_, up_, into_;
   Vector2d middle_;
   double scale_ = 1.0;
+  double start_ = 0.0, reach_ = 0.0;  ///< of a ray: its start along into_, and its length [m]
 };
 
 Eigen::AlignedBox3d all_that_is_shown(const Scenario& scenario, const Scene& scene) {
@@ -81,7 +85,7 @@ std::string surfaces(const View& view, const Scene& scene) {
         paths[static_cast<std::size_t>(shade_before)] += fmt::format("M{} {}h{}", from, y, x - from);
     };
     for (int x = 0; x < kWide; ++x) {
-      const auto hit = world.first_hit(view.origin(x, y), view.into(), 3000.0, {.uavs = false});
+      const auto hit = world.first_hit(view.origin(x, y), view.into(), view.reach(), {.uavs = false});
       int shade = -1;
       if (hit && hit->kind == HitKind::structure) {
         const auto& t = scene.mesh.triangles[hit->triangle];
