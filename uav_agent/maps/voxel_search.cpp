@@ -8,6 +8,8 @@
 #include <queue>
 #include <tuple>
 
+#include "uav_agent/maps/cube_steps.hpp"
+
 namespace skein::agent {
 namespace {
 
