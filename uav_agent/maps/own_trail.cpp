@@ -55,7 +55,8 @@ void OwnTrail::update(Tick now, const Peers& peers, const Vector3d& p_WB) {
     const Peer* const peer = peers.find(uav);
     return peer != nullptr && peer->visible;
   };
-  const bool sound = p_WB.cwiseAbs().maxCoeff() <= kMostM;
+  // maxCoeff() may ignore a coordinate that is not a number.
+  const bool sound = p_WB.allFinite() && p_WB.cwiseAbs().maxCoeff() <= kMostM;
   if (sound && !std::ranges::all_of(lidars_, heard)) mark();
 }
 

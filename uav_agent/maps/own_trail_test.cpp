@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -109,8 +110,17 @@ TEST_F(OwnTrailTest, ForgetsPlacesOlderThanTwoParts) {
 }
 
 TEST_F(OwnTrailTest, AnImpossiblePositionIsLeftOut) {
-  for (const double x : {1e300, -1e12, std::numeric_limits<double>::quiet_NaN()}) exchange({x, 0.0, 5.0}, {});
-  EXPECT_FALSE(trail_.contains({0, 0, 10}));
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double wrong : {1.01e5, -1.01e5, 1e300, kNan}) {
+      Vector3d p_W(0.25, 0.25, 5.25);
+      p_W[axis] = wrong;
+      exchange(p_W, {});
+      exchange({50.0, 50.0, 5.0}, {0, 2});              // all are heard: only what is marked stays in the trail
+      p_W[axis] = std::abs(wrong) < 1e6 ? wrong : 0.0;  // a number of a cube, for each of them
+      EXPECT_FALSE(trail_.contains(cube_at(p_W))) << axis << ": " << wrong;
+    }
+  }
 }
 
 /// Reports of another UAV change the map, except occupied cells in proved free space that are this UAV itself.

@@ -43,7 +43,9 @@ void FlockPoints::detect(std::span<const DetectedPoint> detected, const Vector3d
 
 std::optional<FlockPoints::Spot> FlockPoints::spot_of(const Told& told) {
   const Eigen::Vector3d region = (told.p_W / kRegionM).array().floor();
-  if (!(region.cwiseAbs().maxCoeff() < kLargestIndex) || !(told.n_W.norm() > kLeastNormal)) return std::nullopt;
+  // maxCoeff() may ignore a coordinate that is not a number.
+  if (!region.allFinite() || !(region.cwiseAbs().maxCoeff() < kLargestIndex)) return std::nullopt;
+  if (!(told.n_W.norm() > kLeastNormal)) return std::nullopt;
   Spot spot;
   for (int i = 0; i < 3; ++i) {
     const auto along = static_cast<std::size_t>(i);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/math/random_stream.hpp"
@@ -185,6 +186,18 @@ TEST(FlockPoints, NoSliceStarvesWhateverElseChanges) {
     }
     EXPECT_EQ(told_dense(receiver), told_dense(sender)) << "seed " << seed;
     EXPECT_GT(receiver.all().size() + 60, sender.all().size()) << "seed " << seed;
+  }
+}
+
+TEST(FlockPoints, ADetectionWithoutAPlaceIsLeftOut) {
+  for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e9F}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      DetectedPoint point{{1, 2, 3}, 0.5, 0, {0, 0, 1}};
+      point.p_W[axis] = wrong;
+      FlockPoints points;
+      points.detect(std::array{point}, Vector3d::Zero());
+      EXPECT_TRUE(points.all().empty()) << point.p_W.transpose();
+    }
   }
 }
 
