@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "process/files/user_cache.hpp"
 #include "tests/support/test_scenes.hpp"
@@ -137,15 +140,24 @@ TEST_F(OracleCache, EachInputThatChangesTheAnswerChangesTheKey) {
 }
 
 TEST_F(OracleCache, TheUsersCacheFolderFollowsXdg) {
-  const auto with = [](const char* cache, const char* home) {
-    cache != nullptr ? ::setenv("XDG_CACHE_HOME", cache, 1) : ::unsetenv("XDG_CACHE_HOME");
-    home != nullptr ? ::setenv("HOME", home, 1) : ::unsetenv("HOME");
+  const auto set = [](const char* name, const std::optional<std::string>& value) {
+    value ? ::setenv(name, value->c_str(), 1) : ::unsetenv(name);
+  };
+  const auto value_of = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
+  };
+  const std::optional<std::string> cache_before = value_of("XDG_CACHE_HOME"), home_before = value_of("HOME");
+  const auto with = [&](const std::optional<std::string>& cache, const std::optional<std::string>& home) {
+    set("XDG_CACHE_HOME", cache);
+    set("HOME", home);
     return user_cache_folder();
   };
   EXPECT_EQ(with("/c", "/h"), "/c/skein");
   EXPECT_EQ(with("relative", "/h"), "/h/.cache/skein");
   EXPECT_EQ(with("", "/h"), "/h/.cache/skein");
-  EXPECT_EQ(with(nullptr, nullptr), std::nullopt);
+  EXPECT_EQ(with(std::nullopt, std::nullopt), std::nullopt);
+  with(cache_before, home_before);
 }
 
 }  // namespace
