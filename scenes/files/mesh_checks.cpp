@@ -1,6 +1,5 @@
 #include "scenes/files/mesh_checks.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 
@@ -44,14 +43,6 @@ void append_plain(std::string& text, float number) {
   std::array<char, 80> digits{};  // the longest number has fewer characters
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed);
   text.append(" ").append(digits.data(), end.ptr);
-}
-
-std::string shown(std::string_view word) {
-  constexpr std::size_t kShown = 40;
-  std::string text(word.substr(0, kShown));
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c >= 0x7f; }, '?');
-  return text;
 }
 
 }  // namespace skein::sim

@@ -27,7 +27,4 @@ std::optional<float> parsed_float(std::string_view word);
 /// Appends the number to the text, after a space: in the shortest form without an exponent that gives the same float.
 void append_plain(std::string& text, float number);
 
-/// The first characters of a word in a file, for a message: those that are not printable ASCII become '?'.
-std::string shown(std::string_view word);
-
 }  // namespace skein::sim

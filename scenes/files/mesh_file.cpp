@@ -21,6 +21,7 @@
 #include "scenes/files/limits.hpp"
 #include "scenes/files/mesh_checks.hpp"
 #include "scenes/files/model_file.hpp"
+#include "scenes/files/words.hpp"
 
 namespace skein::sim {
 namespace {

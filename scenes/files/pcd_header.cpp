@@ -8,6 +8,7 @@
 #include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 #include "scenes/files/limits.hpp"
+#include "scenes/files/words.hpp"
 
 namespace skein::sim {
 namespace {
@@ -29,7 +30,7 @@ class HeaderParser {
     header.data_line = lines_.at("DATA").number + 1;
     header.data = word("DATA");
     if (header.data != "ascii" && header.data != "binary" && header.data != "binary_compressed") {
-      refuse("DATA", "must be ascii, binary or binary_compressed, not '" + header.data + "'");
+      refuse("DATA", "must be ascii, binary or binary_compressed, not '" + shown(header.data) + "'");
     }
     read_fields(header);
     const std::size_t width = number(word("WIDTH"), "WIDTH", kMostPoints);
@@ -92,7 +93,7 @@ class HeaderParser {
   std::size_t number(const std::string& text, const std::string& key, std::size_t most) const {
     const auto value = parse_whole<std::size_t>(text);
     if (!value || *value > most) {
-      refuse(key, "must be a whole number within [0, " + std::to_string(most) + "], not '" + text + "'");
+      refuse(key, "must be a whole number within [0, " + std::to_string(most) + "], not '" + shown(text) + "'");
     }
     return *value;
   }
@@ -115,11 +116,11 @@ class HeaderParser {
       if (types[i] != "F" && types[i] != "I" && types[i] != "U") refuse("TYPE", "must be F, I or U");
       const bool whole = field.size == 1 || field.size == 2;
       if (!(field.size == 4 || field.size == 8 || (whole && field.type != 'F'))) {
-        refuse("SIZE", "field '" + field.name + "' cannot have " + std::to_string(field.size) + " bytes");
+        refuse("SIZE", "field '" + shown(field.name) + "' cannot have " + std::to_string(field.size) + " bytes");
       }
       if (field.count == 0) refuse("COUNT", "must be at least 1");
       if (field.name != "_" && std::count(names.begin(), names.end(), field.name) > 1) {
-        refuse("FIELDS", "'" + field.name + "' is named twice");
+        refuse("FIELDS", "'" + shown(field.name) + "' is named twice");
       }
       header.fields.push_back(std::move(field));
     }

@@ -13,6 +13,7 @@
 #include "scenes/files/limits.hpp"
 #include "scenes/files/mesh_checks.hpp"
 #include "scenes/files/plain_model.hpp"
+#include "scenes/files/words.hpp"
 
 namespace skein::sim {
 namespace {

@@ -135,8 +135,7 @@ class AsciiPoints {
     double value = 0.0;
     const auto result = std::from_chars(digits.data(), end, value);
     if (result.ec != std::errc() || result.ptr != end) {
-      constexpr std::size_t kShown = 40;
-      wrong("'" + std::string(word.substr(0, kShown)) + "' is not a number");
+      wrong("'" + shown(word) + "' is not a number");
     }
     return value;
   }

@@ -150,6 +150,9 @@ TEST_F(PointFile, AnErrorSaysWhatIsWrong) {
   expect(ascii("nan"), "point 0 has a number that is not finite");
   expect(ascii("+-5"), "x.pcd:10: '+-5' is not a number");
   expect(ascii("abc"), "x.pcd:10: 'abc' is not a number");
+  expect(ascii("\x1b[31mabc"), "x.pcd:10: '?[31mabc' is not a number");
+  expect(with(padded(), "DATA binary", "DATA \x1b" + std::string(99, 'x')), "not '?" + std::string(39, 'x') + "'");
+  expect(with(padded(), "POINTS 9", "POINTS \x1b" + std::string(99, '9')), "not '?" + std::string(39, '9') + "'");
   expect(ascii("1 2"), "x.pcd:10: must have 6 numbers, not 7");
   expect(ascii().substr(0, ascii().size() - 25), "x.pcd");
   expect(with(ascii(), " 0 1 0\n", " 0 0 0\n"), "point 0 has a normal of no direction");

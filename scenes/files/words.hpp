@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace skein::sim {
@@ -13,6 +15,15 @@ void for_each_word(std::string_view text, std::string_view space, const auto& us
     use(text.substr(begin, end - begin));
     begin = text.find_first_not_of(space, end);
   }
+}
+
+/// The first characters of a word in a file, for a message: those that are not printable ASCII become '?'.
+inline std::string shown(std::string_view word) {
+  constexpr std::size_t kShown = 40;
+  std::string text(word.substr(0, kShown));
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c >= 0x7f; }, '?');
+  return text;
 }
 
 }  // namespace skein::sim
