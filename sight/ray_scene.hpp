@@ -41,7 +41,8 @@ struct RayFilter {
   bool uavs = true;
   /// UAVs that do not stop the ray: sensors and antennas sit inside or close to their own body.
   UavIndex except_uav = kNoUav, except_other_uav = kNoUav;
-  /// If given, the ray is tested against these bodies only: for callers that know that it misses all others.
+  /// If given, single rays are tested against these bodies only: for callers that know that they miss all others.
+  /// scan() ignores it, and tests its rays against all bodies.
   std::optional<std::span<const UavIndex>> among = {};
 };
 
