@@ -116,6 +116,16 @@ TEST_F(ModelFile, NodesAreTurnedScaledMirroredAndInstanced) {
               expected);
 }
 
+TEST_F(ModelFile, AGltfFileNeedNotNameItsScene) {
+  const TriangleMesh box = box_mesh();
+  std::string text = small_models::gltf(box, "{\"children\": [1]}, {\"mesh\": 0}, {\"mesh\": 0}");
+  const std::string named = "\"scene\": 0, ", scenes = "\"scenes\": [{\"nodes\": [0]}],";
+  text.erase(text.find(named), named.size());
+  EXPECT_EQ(corners(read("first.gltf", text)), corners(box)) << "the first scene is read";
+  text.erase(text.find(scenes), scenes.size());
+  EXPECT_EQ(corners(read("all.gltf", text)).size(), 2 * box.triangles.size()) << "all nodes are read, each once";
+}
+
 TEST_F(ModelFile, ColladaMayHaveAnyAxisUp) {
   const Corners box = corners(box_mesh());
   const auto with = [&](const std::string& up) {

@@ -46,11 +46,9 @@ class PlainGltf {
   }
 
   std::string plain() {
-    const Json& scenes = list("scenes");
-    const std::size_t scene = index(doc_, "scene", scenes.size(), 0);
     copied_ = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", Json::array()}};
     for (const char* name : {"nodes", "meshes", "accessors", "bufferViews"}) copied_[name] = Json::array();
-    const Json roots = copy_nodes(scenes[scene], 0);
+    const Json roots = copy_nodes(scene(), 0);
     copied_["scenes"].push_back({{"nodes", roots}});
     if (binary_.empty()) check_count(file_, 0);
     copied_["buffers"] = {{{"byteLength", binary_.size()}}};
@@ -96,6 +94,30 @@ class PlainGltf {
         wrong("it uses " + std::string(unsupported) + ", which is not supported; export without it");
       }
     }
+  }
+
+  /// The scene to be read: the one that the file names, else the first one. A file may also have no scenes: then the
+  /// scene consists of all nodes without a parent.
+  const Json& scene() {
+    if (doc_.contains("scenes") || doc_.contains("scene")) {
+      const Json& scenes = list("scenes");
+      return scenes[index(doc_, "scene", scenes.size(), 0)];
+    }
+    all_nodes_ = Json::object();
+    if (!doc_.contains("nodes")) return all_nodes_;
+    const Json& nodes = list("nodes");
+    std::vector<bool> has_parent(nodes.size());
+    for (const Json& node : nodes) {
+      if (!node.is_object() || !node.contains("children")) continue;
+      for (const Json& child : node["children"]) {
+        if (child.is_number_unsigned() && child.get<std::uint64_t>() < nodes.size())
+          has_parent[child.get<std::size_t>()] = true;
+      }
+    }
+    for (std::size_t number = 0; number < nodes.size(); ++number) {
+      if (!has_parent[number]) all_nodes_["nodes"].push_back(number);
+    }
+    return all_nodes_;
   }
 
   /// Copies the nodes that `parent` (a node or the scene) names, with their children. @returns their new numbers.
@@ -325,6 +347,7 @@ class PlainGltf {
 
   const std::filesystem::path& file_;
   Json doc_;
+  Json all_nodes_;  ///< the scene of a file without scenes
   Json copied_;
   std::optional<std::string_view> chunk_;
   std::map<std::size_t, std::string> decoded_;

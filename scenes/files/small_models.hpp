@@ -133,9 +133,10 @@ inline std::string glb(const TriangleMesh& mesh, const std::string& nodes = "{\"
          word(data.size()) + std::string("BIN\0", 4) + data;
 }
 
-inline std::string gltf(const TriangleMesh& mesh) {
+/// @param nodes  the nodes of its scene as JSON.
+inline std::string gltf(const TriangleMesh& mesh, const std::string& nodes = "{\"mesh\": 0}") {
   const std::string data = gltf_data(mesh);
-  return gltf_text(mesh, "{\"mesh\": 0}",
+  return gltf_text(mesh, nodes,
                    "\"uri\": \"data:application/octet-stream;base64," +
                        base64({reinterpret_cast<const std::uint8_t*>(data.data()), data.size()}) + "\"");
 }
