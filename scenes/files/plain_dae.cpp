@@ -77,7 +77,11 @@ class PlainDae {
         name == "skew" || name == "lookat") {
       check_numbers(element);
     }
-    if (name == "p" || name == "vcount") indices_[element.parent()] += check_indices(element, name);
+    if (name == "p" || name == "vcount") {
+      const auto [list, is_new] = indices_.try_emplace(element.parent());
+      if (is_new) lists_.push_back(element.parent());
+      list->second += check_indices(element, name);
+    }
     if (name == "float_array") {
       const std::size_t count = words(element);
       if (whole(element, "count", count + 1) != count) wrong("the count of a float_array is too small");
@@ -142,7 +146,7 @@ class PlainDae {
   /// Assimp reserves memory for as many primitives as a list announces, and reads as many values as an accessor
   /// announces, whether they are there or not.
   void check_accessors() const {
-    for (const auto& [list, indices] : indices_) whole(list, "count", indices + 1);
+    for (const pugi::xml_node& list : lists_) whole(list, "count", indices_.at(list) + 1);
     for (const pugi::xml_node& accessor : accessors_) {
       const auto array = arrays_.find(std::string(accessor.attribute("source").value()).erase(0, 1));
       if (array == arrays_.end()) wrong("an accessor has no float_array");
@@ -209,7 +213,8 @@ class PlainDae {
   pugi::xml_document document_;
   pugi::xml_node root_;
   std::multimap<std::string, pugi::xml_node> nodes_by_name_;
-  std::map<pugi::xml_node, std::size_t> indices_;  ///< how many each list of primitives has
+  std::vector<pugi::xml_node> lists_;              ///< of primitives, in the order of the file
+  std::map<pugi::xml_node, std::size_t> indices_;  ///< how many each of them has; its order varies between runs
   std::map<std::string, std::size_t> arrays_;      ///< how many numbers each float_array has
   std::vector<pugi::xml_node> accessors_;
   std::set<std::string> geometries_;  ///< their ids
