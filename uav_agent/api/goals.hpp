@@ -21,8 +21,8 @@ using GimbalAim = std::variant<std::monostate, Vector3d, GimbalCommand>;
 
 /// What the planner wants: to be at a place, or to fly along a line of waypoints that begins there.
 struct Goal {
-  /// The planner's own number. If the first goal of a new list has the id of the goal being flown, the core goes on
-  /// with it; its `way` may have changed.
+  /// The planner's own number, not negative: the core's own goals have negative ones. If the first goal of a new list
+  /// has the id of the goal being flown, the core goes on with it; its `way` may have changed.
   std::int64_t id = 0;
   /// At least one waypoint. The core searches a path to the first one, then flies straight from each to the next.
   std::vector<Waypoint> way = {};

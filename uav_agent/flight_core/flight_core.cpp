@@ -4,12 +4,13 @@
 #include <iterator>
 #include <utility>
 
+#include "uav_agent/flight_core/goal_ids.hpp"
+
 namespace skein::agent {
 namespace {
 
 constexpr double kNoLinkS = 4.0;      ///< longest wait for a link at a place that should have one; chosen
 constexpr double kIdleS = 4.0;        ///< recovery begins after this time without a goal that can be reached; chosen
-constexpr std::int64_t kHome = -2;    ///< id of the goal that is a place to deliver captures; numeric
 constexpr double kMakesRoomS = 10.0;  ///< longest flight aside; chosen
 constexpr double kShowCheckS = 5.0;  ///< between two checks of whether a photographer waits to be shown its way; chosen
 /// An explorer that flies along the waypoints of a goal goes on for up to this time before it shows a photographer its
@@ -322,7 +323,7 @@ void FlightCore::go_home(const PlannerInput& in, Steering& steering) {
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < places_W.size(); ++i) {
     const Vector3d& p_W = places_W[(i + next_place_) % places_W.size()];
-    goals.push_back({.id = kHome, .way = {{p_W, config_.approach_mps}}});
+    goals.push_back({.id = goal_ids::kHome, .way = {{p_W, config_.approach_mps}}});
   }
   ++next_place_;
   navigator_.want(std::move(goals));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "uav_agent/flight/site.hpp"
+#include "uav_agent/flight_core/goal_ids.hpp"
 #include "uav_agent/flight_core/landing_place.hpp"
 
 namespace skein::agent {
@@ -57,7 +58,8 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
   navigator_.step(in, filter_.held(), steering);
   std::optional<Vector3d> at_W;
   for (const Outcome& outcome : navigator_.take_outcomes()) {
-    if (outcome.kind == Outcome::Kind::reached) at_W = sites_W_.at(static_cast<std::size_t>(-1 - outcome.id));
+    if (outcome.kind == Outcome::Kind::reached)
+      at_W = sites_W_.at(static_cast<std::size_t>(goal_ids::kSite - outcome.id));
   }
   if (across_m(in.state.p_WB, place_W_) < kAboveSiteM && !was_held_above(place_W_)) at_W = place_W_;
   if (must_sink && !at_W) at_W = in.tracking.setpoint.p_WB;
@@ -81,7 +83,7 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
   std::vector<Goal> goals;
   for (std::size_t i = 0; i < sites_W_.size(); ++i) {
     const Vector3d above_W(sites_W_[i].x(), sites_W_[i].y(), kFromM);
-    Goal goal{.id = -1 - static_cast<std::int64_t>(i), .way = {{above_W, config_.approach_mps}}};
+    Goal goal{.id = goal_ids::kSite - static_cast<std::int64_t>(i), .way = {{above_W, config_.approach_mps}}};
     if (out_W && is_above_start(above_W, *out_W)) goal.way.insert(goal.way.begin(), {*out_W, config_.approach_mps});
     goals.push_back(std::move(goal));
   }

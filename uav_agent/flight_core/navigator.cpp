@@ -5,12 +5,12 @@
 
 #include "core/math/euler.hpp"
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/flight_core/goal_ids.hpp"
 #include "uav_agent/maps/cube_steps.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr std::int64_t kTrail = -3;       ///< id of the goal that is the UAV's own trail; numeric
 constexpr double kAheadM = 0.5;           ///< across; a place that is nearer gives no heading; chosen
 constexpr int kSearchesPerExchange = 2;   ///< number of goals that are tried; chosen
 constexpr int kMostExpansions = 4000;     ///< of one search; chosen: bounds its CPU time
@@ -122,7 +122,7 @@ void Navigator::want(std::vector<Goal> goals) {
 
 void Navigator::retrace(std::vector<Waypoint> trail) {
   goals_.clear();
-  current_ = Goal{.id = kTrail, .way = std::move(trail)};
+  current_ = Goal{.id = goal_ids::kTrail, .way = std::move(trail)};
   on_way_ = new_way_ = retraces_ = true;
 }
 

@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "uav_agent/flight/path_search.hpp"
+#include "uav_agent/flight_core/goal_ids.hpp"
 #include "uav_agent/flight_core/place_near.hpp"
 
 namespace skein::agent {
 namespace {
 
-constexpr std::int64_t kGoal = -1;  ///< id of the goals of recovery; numeric
 /// Least approach to the missed goal, way back, or way away, that is worth the flight. Chosen.
 constexpr double kWorthM = 3.0;
 constexpr int kExpansions = 2000;                      ///< of a search; chosen: bounds its CPU time
@@ -92,13 +92,13 @@ bool Recovery::set_out(const PlannerInput& in) {
     const auto corners =
         find_approach(space, in.boxes, here_W, *navigator_.missed_W(), kWorthM, {.max_expansions = kExpansions});
     if (!corners) return false;
-    navigator_.want({{.id = kGoal, .way = {{corners->back(), config_.approach_mps}}}});
+    navigator_.want({{.id = goal_ids::kRecovery, .way = {{corners->back(), config_.approach_mps}}}});
     return true;
   }
   if (behaviour_ == Behaviour::climb) {
     const Vector3d up_W = here_W + Vector3d(0.0, 0.0, kClimbM);
     if (!space.segment_free(here_W, up_W)) return false;
-    navigator_.want({{.id = kGoal, .way = {{up_W, config_.climb_mps}}}});
+    navigator_.want({{.id = goal_ids::kRecovery, .way = {{up_W, config_.climb_mps}}}});
     return true;
   }
   if (behaviour_ == Behaviour::back) return go_back(here_W);
@@ -109,7 +109,7 @@ bool Recovery::set_out(const PlannerInput& in) {
         const Vector3d p_W =
             here_W + Vector3d(distance_m * std::cos(heading), distance_m * std::sin(heading), height_m);
         if (in.world_map->at(p_W) == Space::free && space.free(p_W) && space.segment_free(here_W, p_W)) {
-          navigator_.want({{.id = kGoal, .way = {{p_W, config_.approach_mps}}}});
+          navigator_.want({{.id = goal_ids::kRecovery, .way = {{p_W, config_.approach_mps}}}});
           return true;
         }
       }

@@ -5,12 +5,13 @@
 #include <numbers>
 #include <utility>
 
+#include "uav_agent/flight_core/goal_ids.hpp"
+
 namespace skein::agent {
 namespace {
 
-constexpr std::int64_t kShowing = -3;  ///< id of the goals of showing; numeric
-constexpr double kLowM = 1.0;          ///< a UAV that has left its start and is higher above it has risen; chosen
-constexpr double kColumnTopM = 6.0;    ///< height of the space above a start that is shown; chosen
+constexpr double kLowM = 1.0;        ///< a UAV that has left its start and is higher above it has risen; chosen
+constexpr double kColumnTopM = 6.0;  ///< height of the space above a start that is shown; chosen
 /// Offsets of the places to hover from the photographer: horizontal distance, and heights to try in this order. From
 /// there a LiDAR sees the column well, unless a roof is in between. Chosen.
 constexpr double kAsideM = 5.0, kAboveM[] = {5.0, 2.5, 8.0, 12.0};
@@ -106,7 +107,7 @@ std::optional<Goal> Showing::next(const PlannerInput& in, const FreeSpace& space
         ++it.attempts;
         it.not_before =
             in.tick + ticks(std::ldexp(kAgainS, std::clamp(it.attempts - kManyAttempts, 0, kMostDoublings)));
-        return Goal{.id = kShowing, .way = {{p_W, kShowMps}}};
+        return Goal{.id = goal_ids::kShowing, .way = {{p_W, kShowMps}}};
       }
     }
   }
