@@ -47,7 +47,7 @@ TEST(OpenSpace, AWindowLetsInABodyThatFitsThrough) {
     for (const double clearance : {0.1, 0.25, 0.5, 1.0, 1.2, 2.0}) {
       const OpenSpace space(world, kHouse, clearance, {});
       // For widths between these, it depends on the grid whether one of its lines runs through the window.
-      const bool too_small = window<2.0 * clearance, large = window> 2.0 * clearance + 1.5 * space.step();
+      const bool too_small = (window < 2.0 * clearance), large = (window > 2.0 * clearance + 1.5 * space.step());
       EXPECT_FALSE(too_small && space.reaches(kInside)) << window << ' ' << clearance;
       EXPECT_TRUE(!large || space.reaches(kInside)) << window << ' ' << clearance;
     }

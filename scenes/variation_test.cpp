@@ -28,8 +28,14 @@ Scene two_boxes() {
 TEST(VaryBoxes, SeedZeroKeepsTheBoxes) {
   Scene scene = two_boxes();
   vary_boxes(scene, 0);
-  ASSERT_EQ(scene.boxes.size(), 2u);
-  EXPECT_EQ(scene.boxes[0].size, two_boxes().boxes[0].size);
+  const Scene before = two_boxes();
+  ASSERT_EQ(scene.boxes.size(), before.boxes.size());
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    EXPECT_EQ(scene.boxes[i].name, before.boxes[i].name);
+    EXPECT_EQ(scene.boxes[i].center, before.boxes[i].center) << i;
+    EXPECT_EQ(scene.boxes[i].size, before.boxes[i].size) << i;
+    EXPECT_EQ(scene.boxes[i].R_WO, before.boxes[i].R_WO) << i;
+  }
 }
 
 TEST(VaryBoxes, APlaceInsideOfABoxStaysInside) {

@@ -33,7 +33,7 @@ inline std::string obj(const TriangleMesh& mesh) {
   text << "# a mesh\nmtllib none.mtl\no part\nvt 0 0\nvn 0 0 1\n";
   for (const auto& v : mesh.vertices) text << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    text << "usemtl " << (t % 2 == 0 ? "odd" : "even") << "\nf";  // so Assimp makes a mesh of each triangle
+    text << "usemtl " << (t % 2 == 0 ? "even" : "odd") << "\nf";  // so Assimp makes a mesh of each triangle
     for (const auto vertex : mesh.triangles[t]) text << ' ' << vertex + 1 << "/1/1";
     text << '\n';
   }

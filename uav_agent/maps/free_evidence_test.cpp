@@ -190,7 +190,7 @@ TEST(FreeJudge, AgreesWithTheUnseenProbability) {
     }
   }
   EXPECT_GT(proved, 1000U);
-  EXPECT_GT(asked, 10 * proved / 5);
+  EXPECT_GT(asked, 2 * proved);
 }
 
 TEST(UnseenMembers, WithoutBeamsEveryMemberIsUnseen) {

@@ -117,9 +117,7 @@ TEST_F(UavTracesTest, HitsThatCannotBeTheUavAreNotDoubted) {
   exchange(there_W, met_again_W);
   exchange(there_W, met_again_W);
   wait(there_W, 4.0);
-  for (const std::vector<Vector3d>& good : {good_W}) {
-    for (const Vector3d& hit_W : good) EXPECT_TRUE(doubted(hit_W)) << hit_W.transpose();
-  }
+  for (const Vector3d& hit_W : good_W) EXPECT_TRUE(doubted(hit_W)) << hit_W.transpose();
   EXPECT_FALSE(doubted(too_far_W[0])) << "it would have flown too fast to there";
   EXPECT_FALSE(doubted(met_late_W[0])) << "it would have flown too fast from there";
   EXPECT_FALSE(doubted(before_W[0])) << "it was heard then";
