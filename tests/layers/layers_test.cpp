@@ -49,6 +49,7 @@ TEST_F(Layers, NumbersOfTheAgentNameTheirSource) { expect_none(check_sources(tre
 TEST_F(Layers, LinesAreShort) { expect_none(check_columns(tree_)); }
 TEST_F(Layers, NothingIsMarkedUnfinished) { expect_none(check_marks(tree_)); }
 TEST_F(Layers, FilesThatAreNamedExist) { expect_none(check_references(tree_)); }
+TEST_F(Layers, TestsThatPagesNameExist) { expect_none(check_named_tests(tree_)); }
 TEST_F(Layers, OneHeaderNamesTheFilesOfARun) { expect_none(check_run_files(tree_)); }
 TEST_F(Layers, DecisionsAreShortAndHaveTheirSections) { expect_none(check_decisions(tree_)); }
 TEST_F(Layers, TestNamesNameTheirActor) { expect_none(check_test_names(tree_)); }

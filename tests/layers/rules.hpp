@@ -94,6 +94,11 @@ Violations check_machine_paths(const Tree& tree);
 /// tells its reader to write: its code blocks with a name.
 Violations check_references(const Tree& tree);
 
+/// Tests that pages name in backquotes exist: `Suite.Test`, or `Suite.Begin...` for those whose names begin so. Left
+/// out are names whose suite does not exist, and names that the page calls former ones: behind them stands "(gone)" or
+/// "(now ...)".
+Violations check_named_tests(const Tree& tree);
+
 /// Only results/run_folder.hpp names the files of a run's folder; tests may, too.
 Violations check_run_files(const Tree& tree);
 

@@ -1,5 +1,6 @@
-// The rule for file names in comments and documents.
+// The rules for names of files in comments and documents, and of tests in documents.
 #include <algorithm>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -58,6 +59,23 @@ bool is_ours(const std::string& path, const Paths& paths, bool in_comment) {
   return paths.has_folder(path.substr(0, slash)) || std::regex_match(path, kCpp);
 }
 
+/// The names of all tests of C++, by suite.
+std::map<std::string, std::set<std::string>> tests_by_suite(const Tree& tree) {
+  static const std::regex kTest(R"(\b(?:TYPED_)?TEST(?:_[FP])?\(\s*(\w+),\s*(\w+)\s*\))");
+  std::map<std::string, std::set<std::string>> tests;
+  for (const SourceFile& file : tree) {
+    for (std::size_t i = 0; i < file.code.size(); ++i) {
+      if (file.code[i].find("TEST") == std::string::npos) continue;
+      // A line break may stand before the name.
+      const bool breaks = file.code[i].ends_with(',') && i + 1 < file.code.size();
+      const std::string text = breaks ? file.code[i] + file.code[i + 1] : file.code[i];
+      std::smatch test;
+      if (std::regex_search(text, test, kTest)) tests[test[1]].insert(test[2]);
+    }
+  }
+  return tests;
+}
+
 }  // namespace
 
 Violations check_references(const Tree& tree) {
@@ -75,6 +93,30 @@ Violations check_references(const Tree& tree) {
         const std::string path = (*match)[2];
         if (!is_ours(path, paths, file.is_cpp()) || paths.has(path) || to_write.contains(name_of(path))) continue;
         violations.push_back(file.path + ":" + std::to_string(i + 1) + ": there is no " + path);
+      }
+    }
+  }
+  return violations;
+}
+
+Violations check_named_tests(const Tree& tree) {
+  static const std::regex kName(R"(`([A-Z]\w*)\.([A-Z]\w*)(\.\.\.)?`(?! \((?:gone\)|now )))");
+  const auto tests = tests_by_suite(tree);
+  Violations violations;
+  for (const SourceFile& file : tree) {
+    if (!is_page(file)) continue;
+    for (std::size_t i = 0; i < file.lines.size(); ++i) {
+      const std::string& line = file.lines[i];
+      for (auto match = std::sregex_iterator(line.begin(), line.end(), kName); match != std::sregex_iterator();
+           ++match) {
+        const auto suite = tests.find((*match)[1]);
+        if (suite == tests.end()) continue;  // not a suite at all, or one that is gone
+        const std::string name = (*match)[2];
+        const auto first = suite->second.lower_bound(name);
+        const bool is_shortened = (*match)[3].matched;
+        const bool exists = first != suite->second.end() && (is_shortened ? first->starts_with(name) : *first == name);
+        if (exists) continue;
+        violations.push_back(file.path + ":" + std::to_string(i + 1) + ": there is no test " + match->str());
       }
     }
   }

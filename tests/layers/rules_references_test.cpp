@@ -1,0 +1,26 @@
+// The rule on names of tests in documents, on a small tree. The rule on names of files is tested in rules_test.cpp.
+#include <gtest/gtest.h>
+
+#include "tests/layers/rules.hpp"
+
+namespace skein::layers {
+namespace {
+
+TEST(NamedTests, ANameOfNoTestIsFoundUnlessThePageSaysThatItIsAFormerOne) {
+  const SourceFile code{
+      .path = "core/map_test.cpp",
+      .code = {"TEST(Map, HearsAll) {}", "TEST_F(Map,", "       TellsAll) {", "}", "TEST_P(Steps, AreCounted) {}"}};
+  const SourceFile good{.path = "docs/good.md",
+                        .lines = {"`Map.HearsAll`, `Map.Tells...` and `Steps.AreCounted`; `Other.Test`, `map.at`",
+                                  "`Map.WasHere` (gone), `Map.Was...` (now two tests) and Map.WithoutQuotes"}};
+  EXPECT_EQ(check_named_tests({code, good}), Violations{});
+
+  const SourceFile bad{.path = "docs/folder/bad.md",
+                       .lines = {"", "`Map.HearsAl` and `Map.Sees...`", "`Map.AreCounted` (really)"}};
+  EXPECT_EQ(check_named_tests({code, bad}), (Violations{"docs/folder/bad.md:2: there is no test `Map.HearsAl`",
+                                                        "docs/folder/bad.md:2: there is no test `Map.Sees...`",
+                                                        "docs/folder/bad.md:3: there is no test `Map.AreCounted`"}));
+}
+
+}  // namespace
+}  // namespace skein::layers
