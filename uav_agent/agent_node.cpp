@@ -28,7 +28,7 @@ AgentNode::AgentNode(const Scenario& scenario, UavIndex uav, std::unique_ptr<Pla
       agent_(agent_config(scenario, uav), std::move(planner), std::move(frames)) {}
 
 void AgentNode::start() {
-  octomap_.reset();  // of the participant that now goes
+  octomap_.reset();  // the writers belong to the participant that MemberNode::start() replaces
   flight_map_.reset();
   diagnostics_.reset();
   MemberNode::start();
@@ -204,9 +204,10 @@ std::string AgentNode::end_maps() {
 
 void AgentNode::send(LockstepClient& client) {
   write(client);
-  // Before the step is answered: an agent that is killed at the next one has kept the same each time.
+  // Before the step is answered, so that an agent that a fault kills at the next step has kept the same snapshots in
+  // each run.
   if (kept_maps_) kept_maps_->keep(input_.tick, agent_.world_map(), agent_.map());
-  // State stays until the next sample replaces it; events are over.
+  // State stays until the next sample replaces it; events count only in the step in which they arrived.
   input_.boxes.clear();
   input_.key_frames.clear();
   input_.scans.clear();

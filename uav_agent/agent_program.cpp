@@ -38,7 +38,8 @@ int list_strategies() {
   return kExitDone;
 }
 
-/// @throws InputError when the server would not read what the planner names: the fleet would wait for it in vain.
+/// @throws InputError if sim_server would not read all debug values that the planner names: the fleet would wait for
+/// the planner in vain.
 void check_debug_names(const std::vector<std::string>& names, const std::string& planner, const std::string& uav) {
   for (const std::string& name : names) {
     if (topics::debug_name(topics::debug(uav, name).name, uav).empty()) {
@@ -60,7 +61,7 @@ void check_maps_period(double period_s) {
                    shortest(kMostMapsPeriod_s) + "] s");
 }
 
-/// In C++, or in Python.
+/// Makes a planner that is written in C++ or in Python.
 std::unique_ptr<Planner> planner_of(const std::string& spec, const Scenario& scenario, UavIndex uav, std::uint64_t seed,
                                     const std::optional<double>& pdb_from_s) {
   if (!python_spec(spec)) {
@@ -84,7 +85,7 @@ std::vector<std::string> debug_names_of_environment(const std::string& uav) {
 
 class AgentMember final : public bus::FleetMember {
  public:
-  /// @param scenario, bus  that the node refers to. @param steps_alone  a program outside steps it.
+  /// @param scenario, bus  the node refers to them. @param steps_alone  an external program steps the planner.
   AgentMember(const ProgramOptions& options, std::string planner, StatusPipe& status,
               std::shared_ptr<const Scenario> scenario, std::unique_ptr<bus::Bus> bus, std::unique_ptr<MemberNode> node,
               bool steps_alone)
@@ -181,7 +182,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
     check_debug_names(planner->debug_names(), planner_, scenario->fleet[uav].name);
   }
   if (!options.check_only) options.check_out();
-  auto bus = bus::make_bus(options, *scenario, 1);  // its own domain
+  auto bus = bus::make_bus(options, *scenario, 1);  // 1: only the domain of this UAV or station
   if (options.check_only) return kExitDone;
   std::unique_ptr<MemberNode> node;
   Learner* const learner = planner ? planner->learner() : nullptr;

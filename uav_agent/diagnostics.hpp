@@ -24,7 +24,7 @@ struct DiagnosticFacts {
   double planner_cpu_s = 0.0;                      ///< so far
   const SafetyFilter::Counts* filter = nullptr;    ///< nullptr: no flight core flies the UAV
   std::uint64_t breaches_told = 0;                 ///< filter->broken at the last message
-  std::string no_way = {};                         ///< why no path was found in this exchange; empty: none was missed
+  std::string no_way = {};                         ///< why no path was found in this exchange; empty: no search failed
   std::optional<BatteryStatus> battery = {};
 };
 

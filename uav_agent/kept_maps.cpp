@@ -18,7 +18,7 @@ KeptMaps::KeptMaps(std::filesystem::path folder, std::string uav, Tick period)
 void KeptMaps::keep(Tick tick, const WorldMap* world, const OccupancyMap& key_frames) {
   tick_ = tick;
   if (tick < due_) return;
-  due_ = (tick / period_ + 1) * period_;  // on the same times for all UAVs, whenever their programs began
+  due_ = (tick / period_ + 1) * period_;  // at the same times for all UAVs, whenever their programs began
   if (has_changed(world, key_frames)) write(world, key_frames);
 }
 

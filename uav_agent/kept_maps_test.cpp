@@ -73,7 +73,7 @@ class KeptMapsTest : public testing::Test {
   const OccupancyMap none_;
 };
 
-TEST_F(KeptMapsTest, ShowTheMapWheneverItHadChangedAndAtTheEnd) {
+TEST_F(KeptMapsTest, SnapshotsAreWrittenWhenTheMapHasChangedAndAtTheEnd) {
   KeptMaps kept(folder_, "a", 10 * kSecond);
   std::vector<Snapshot> expected = fly(kept);
   ASSERT_EQ(expected.size(), 7U);
@@ -83,7 +83,7 @@ TEST_F(KeptMapsTest, ShowTheMapWheneverItHadChangedAndAtTheEnd) {
   EXPECT_FALSE(fs::exists(folder_ / run_folder::maps_file("a", 1)));
 }
 
-TEST_F(KeptMapsTest, OfTheSameFlightHaveTheSameBytesInAnotherFile) {
+TEST_F(KeptMapsTest, EqualFlightsGiveFilesWithEqualBytes) {
   for (int life = 0; life < 2; ++life) {
     KeptMaps kept(folder_, "a", 10 * kSecond);
     fly(kept);
@@ -92,7 +92,7 @@ TEST_F(KeptMapsTest, OfTheSameFlightHaveTheSameBytesInAnotherFile) {
   EXPECT_GT(text_of_file(0).size(), 1000U);
 }
 
-TEST_F(KeptMapsTest, AreInTheFileWhenTheProgramDies) {
+TEST_F(KeptMapsTest, EachSnapshotIsInTheFileBeforeTheFileIsClosed) {
   WorldMap map(WorldMap::Config{});
   RandomStream random(9, "kept_maps", 0);
   KeptMaps kept(folder_, "a", kSecond);
@@ -103,7 +103,7 @@ TEST_F(KeptMapsTest, AreInTheFileWhenTheProgramDies) {
   }
 }
 
-TEST_F(KeptMapsTest, ShowTheMapOfKeyFramesIfTheUavFliesByIt) {
+TEST_F(KeptMapsTest, SnapshotsShowTheMapOfKeyFramesIfTheUavFliesByIt) {
   OccupancyMap map;
   KeptMaps kept(folder_, "a", kSecond);
   for (int step = 0; step <= 5; ++step) {
@@ -120,13 +120,13 @@ TEST_F(KeptMapsTest, ShowTheMapOfKeyFramesIfTheUavFliesByIt) {
   EXPECT_EQ(found[1].bytes, found[2].bytes);
 }
 
-TEST_F(KeptMapsTest, LeaveNoFileOfAUavThatNeverTookAStep) {
+TEST_F(KeptMapsTest, AUavThatNeverTookAStepLeavesNoFile) {
   KeptMaps kept(folder_, "a", kSecond);
   kept.end(nullptr, none_);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
-TEST_F(KeptMapsTest, EndWithAnErrorThatNamesTheFileWhenItCannotBeWritten) {
+TEST_F(KeptMapsTest, SnapshotsEndWithAnErrorThatNamesTheFileIfItCannotBeWritten) {
   KeptMaps nowhere(folder_ / "none", "a", kSecond);
   fly(nowhere);
   EXPECT_NE(nowhere.write_error().find("maps-a.mcap"), std::string::npos) << nowhere.write_error();

@@ -1,4 +1,4 @@
-// The hash FNV-1a with 32 bits, of bytes or of larger numbers. It tells contents apart, but not safely.
+// The hash FNV-1a with 32 bits, of bytes or of larger numbers. Different contents may have the same hash.
 // Pure; threads: any.
 #pragma once
 

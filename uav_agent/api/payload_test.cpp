@@ -49,7 +49,7 @@ TEST(Payload, AnyBytesTravelAsATextWithoutNul) {
   EXPECT_EQ(opened->bytes, all_bytes().data());
 }
 
-TEST(Payload, AnotherTypeSenderOrTopicIsNotOpened) {
+TEST(Payload, AMessageOfAnotherPlannerSenderOrTopicIsNotOpened) {
   const RadioMessage message = send_payload("kios/1", 3, all_bytes());
   EXPECT_FALSE(open_payload(message, "kios/2", 5));
   EXPECT_FALSE(open_payload(message, "kios/", 5));
@@ -60,7 +60,7 @@ TEST(Payload, AnotherTypeSenderOrTopicIsNotOpened) {
   EXPECT_FALSE(open_payload(elsewhere, "kios/1", 5));
 }
 
-TEST(Payload, OfManyMessagesThoseOfThePlannerAreOpenedInOrder) {
+TEST(Payload, OnlyMessagesOfThePlannerAreOpenedAndInTheirOrder) {
   std::vector<RadioMessage> radio;
   for (const std::uint8_t sender : {2, 0, 1}) {
     radio.push_back(send_payload("star/1", sender, all_bytes()));
@@ -74,7 +74,7 @@ TEST(Payload, OfManyMessagesThoseOfThePlannerAreOpenedInOrder) {
   EXPECT_EQ(opened[1].bytes, (std::vector<std::uint8_t>{1, 244, 1}));
 }
 
-TEST(Payload, NoDamageGoesUnnoticedAndNoneCrashes) {
+TEST(Payload, ADamagedMessageIsRefusedOrKeepsItsContent) {
   const RadioMessage message = send_payload("kios/1", 0, all_bytes());
   for (std::size_t i = 0; i < message.text.size(); ++i) {
     for (const char flip : {1, 16, -128}) {

@@ -1,5 +1,5 @@
-// The nodes of this folder as a module of Python, _skein_client: bytes in, bytes out. The package skein.client makes
-// messages of them, and has the words for people (python/skein/client).
+// The nodes of this folder as a module of Python, _skein_client: bytes in, bytes out. The package skein.client
+// (python/skein/client) converts the bytes to messages and words the errors for users.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <spdlog/spdlog.h>
@@ -27,15 +27,15 @@ namespace {
 
 /// Version of the interface between the module and the package, which may be installed separately.
 constexpr int kInterface = 1;
-/// Ctrl-C is noticed after so long at the latest. Chosen.
+/// Longest time between two checks for Ctrl-C. Chosen.
 constexpr std::chrono::milliseconds kLook{100};
 
-/// It was used in a way that cannot be: the text says how it would be right.
+/// The caller used an object wrongly. The text says how to use it.
 class WrongUse : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-/// The fleet goes on without it, or has gone.
+/// The fleet goes on without this program, or sim_server is gone.
 class Lost : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -50,7 +50,8 @@ std::vector<std::uint8_t> from_bytes(const py::bytes& bytes) {
   return {text.begin(), text.end()};
 }
 
-/// The process and thread that made something; a copy of the process does not have the vendors' threads.
+/// The process and thread that made an object; only they may use it. A forked copy of the process does not have the
+/// threads of the DDS vendor.
 class Home {
  public:
   void check() const {
@@ -80,7 +81,7 @@ class Joined {
     return *node_;
   }
   void close() {
-    if (home_.is_copy()) {  // the vendors' threads are not here, and would be waited for
+    if (home_.is_copy()) {  // destructors would wait for the DDS vendor's threads, which are not here
       static_cast<void>(node_.release());
       static_cast<void>(bus_.release());
       return;
@@ -105,7 +106,8 @@ ProgramOptions options_of(const std::string& dds, std::uint64_t run, const std::
   return options;
 }
 
-/// A topic of the table, in the domain of `id`. @throws InputError when there is none of that name.
+/// The topic with this name in the domain of `id`, from the tables of core/topics.hpp. @throws InputError when there is
+/// none.
 topics::WireTopic known_topic(const std::string& ros_topic, const std::string& id) {
   const std::string name = wire_topic(ros_topic);
   for (const auto all :
@@ -118,13 +120,13 @@ topics::WireTopic known_topic(const std::string& ros_topic, const std::string& i
   throw InputError("'" + ros_topic + "' is not a topic of " + (id.empty() ? "a fleet" : id) + " (docs/topics.md)");
 }
 
-/// With a type of its own: a radio topic, as a rule.
+/// A topic of which the caller states the type, usually a radio topic; without a type, as known_topic().
 topics::WireTopic topic_of(const std::string& ros_topic, const std::string& ros_type, const std::string& id) {
   if (ros_type.empty()) return known_topic(ros_topic, id);
   return {wire_topic(ros_topic), wire_type(ros_type), false, topics::radio_depth(topics::kMostRadioSources)};
 }
 
-/// A scenario's nodes; known by name alone.
+/// The scenario's node with this name. @throws InputError when there is none.
 Node node_named(const Scenario& scenario, const std::string& name) {
   for (const Node node : scenario.nodes()) {
     if (scenario.node_name(node) == name) return node;
@@ -197,7 +199,7 @@ class Member {
     for (const std::string& topic : reads) topics.reads.push_back(known_topic(topic, name));
     for (const std::string& topic : writes) topics.writes.push_back(known_topic(topic, name));
     ProgramOptions options = options_of(dds, run, security, lease_s);
-    options.domain = domain - node_domain(0, node);  // the fleet's first one, by which networks are numbered
+    options.domain = domain - node_domain(0, node);  // the fleet's first domain, by which networks are numbered
     if (const char* network = std::getenv("SKEIN_NETWORK"); network != nullptr && *network != '\0') {
       options.network = network;
     }
@@ -291,8 +293,8 @@ PYBIND11_MODULE(_skein_client, module) {
   using namespace skein;
   using namespace skein::agent;
   spdlog::set_default_logger(make_log("skein", ""));
-  // The launcher stops a user's command itself, and goes on with it. A second stop, which the order asks for, might
-  // come after that: so the order means no more than to stand aside until it is over.
+  // When a fault stops a user's command, the launcher itself stops this process and continues it later. sim_server's
+  // order to stop may be read only after that. A second stop would then never end, so the order has no effect here.
   bus::set_self_signals({.kill = {}, .stop = [] {}});
   py::register_exception<WrongUse>(module, "WrongUse");
   py::register_exception<Lost>(module, "Lost");

@@ -11,7 +11,7 @@
 namespace skein::agent {
 namespace {
 
-/// Simulated time is told in stamps of nanoseconds, and compared in seconds. Numeric.
+/// Stamps are in nanoseconds, and are compared in seconds. Numeric.
 constexpr double kTolerance_s = 1e-6;
 
 struct Content {
@@ -77,7 +77,7 @@ std::vector<Relay::Payload> Relay::take(double now_s) {
   return all;
 }
 
-// A node on a wall clock is decades ahead.
+// A node that stamps with the wall clock is decades ahead of simulated time.
 void Relay::judge(const Payload& payload, double now_s) {
   const std::optional<double> stamp_s = content(topic_.type, payload).stamp_s;
   if (!stamp_s) return;

@@ -11,7 +11,8 @@ namespace skein::agent {
 /// The fields of skein.planner.AgentConfig. At the ground station `index` is None and there is no vehicle.
 pybind11::dict to_python(const Scenario& scenario, Node node);
 
-/// Radio topics of a scenario at a node, custody's left out: ROS topic, type, whether it may be sent on.
+/// The scenario's radio topics at a node, except those that carry captures and their acknowledgements, as tuples of ROS
+/// topic, ROS type, and whether the node may send on the topic.
 pybind11::list radio_of(const Scenario& scenario, Node node);
 
 }  // namespace skein::agent

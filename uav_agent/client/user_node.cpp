@@ -23,7 +23,7 @@ UserNode::UserNode(const Scenario& scenario, Node node, int domain, bus::Bus& bu
                    std::to_string(topics::kMostDebugNames) + " are read");
 }
 
-/// Each time that it joins; what has arrived for it in its former life is not for it any more.
+/// Called each time the node joins. Messages from before a fault stopped the node are discarded.
 void UserNode::declare(LockstepClient& client) {
   ++joins_;
   read_.clear();
@@ -51,18 +51,18 @@ void UserNode::write(LockstepClient& client, const topics::WireTopic& topic, Cou
   client.declare_writer(bus::spec(topic), counterpart);
 }
 
-/// Topics of the scenario, of whatever type.
+/// Declares the radio topics of the scenario, of any type.
 void UserNode::declare_radio(LockstepClient& client) {
   const std::set<std::string> custody = {topics::captures(member()).name, topics::captures_ack_at_uav(member()).name};
   const std::size_t nodes = scenario_.fleet.size() + 1;
   for (const RadioRoute& route : radio_routes(scenario_)) {
-    if (!route.member.empty()) continue;  // the station's own
+    if (!route.member.empty()) continue;  // only the station's own program may send on it
     if (route.source == node_ && !custody.contains(route.topic)) {
       write(client, {route.topic, route.type, false, topics::kRadioDepth}, Counterpart::router);
     }
     for (const RadioTarget& target : route.targets) {
       if (target.node != node_ || custody.contains(target.topic)) continue;
-      if (!is_uav() && route.ros_type == kCapturesType) continue;  // for the station
+      if (!is_uav() && route.ros_type == kCapturesType) continue;  // the station's own program stores the captures
       read(client, {target.topic, route.type, false, topics::radio_depth(nodes)}, Counterpart::router);
     }
   }
@@ -110,7 +110,7 @@ bool UserNode::may_think() {
   return answered_;
 }
 
-/// A new participant has registered nothing yet.
+/// Repeats all registrations, because a new participant has none.
 void UserNode::request_again() {
   for (const auto& [topic, opened] : std::map(opened_)) open(topic, opened.type, opened.targets);
   for (const auto& [topic, type] : std::map(listened_)) listen(topic, type);

@@ -7,9 +7,9 @@
 namespace skein::agent {
 namespace {
 
-/// Lifetime of an answer in the cache: Fits::everywhere, any other. Chosen.
+/// Lifetimes of an answer in the cache: of Fits::everywhere, and of any other. Chosen.
 constexpr double kFreeForS = 4.0, kUnknownForS = 1.0;
-constexpr std::size_t kMostAnswers = 200'000;        ///< memory: then the cache is emptied
+constexpr std::size_t kMostAnswers = 200'000;        ///< memory: with more answers, the cache is emptied
 constexpr std::uint32_t kTimeBits = (1U << 30) - 1;  ///< memory: of an answer's time
 
 }  // namespace

@@ -3,7 +3,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kLinkAgeS = 1.0;  ///< between two sightings; shorter links are not noted; chosen
+constexpr double kLinkAgeS = 1.0;  ///< time between two noted places of a link; shorter links are not noted; chosen
 constexpr double kStuckS = 5.0;    ///< without an arrival for so long, captures are not delivered from here; chosen
 
 }  // namespace
@@ -17,7 +17,8 @@ void LinkWatch::update(const PlannerInput& in) {
   note_link(in);
 }
 
-/// Keeps the place at which the UAV was at least kLinkAgeS before a link's end: at its last place, the link broke.
+/// Keeps the place where the UAV was at least kLinkAgeS before a link ended, and not the last place of the link: there,
+/// the link broke.
 void LinkWatch::note_link(const PlannerInput& in) {
   if (!in.station_linked) {
     sighting_.reset();

@@ -104,7 +104,7 @@ TEST(PathSearch, GoesAsNearAsPossibleToAGoalThatCannotBeReached) {
   }
 }
 
-TEST(PathSearch, LeavesAPlaceThatIsTooNearToSomething) {
+TEST(PathSearch, LeavesAPlaceThatIsTooNearToStructure) {
   OccupancyMap map;
   map.insert(wall_with_window({100.0, 0.0, 0.0}, 1.0, 30.0), std::nullopt);
   const std::vector<OrientedBox> boxes;

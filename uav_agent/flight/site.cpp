@@ -7,7 +7,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kOutM = 1e-3;  ///< against rounding: so far above its top, a place is not in a box
+constexpr double kOutM = 1e-3;  ///< against rounding: a place this far above a box's top is not in the box
 constexpr double kSiteM = 45.0, kSiteHeightM = 20.0;  ///< least horizontal size and height; chosen
 
 /// z in W at which a vertical line upwards from p, which is in the box, leaves it, if all its sides are moved outwards.

@@ -16,14 +16,14 @@ bool is_site_box(const OrientedBox& box);
 /// z in W of the highest point of all boxes, at least 0; 0 without boxes.
 double top_of(const std::vector<OrientedBox>& boxes);
 
-/// A place that is not farther from a UAV's start belongs to the start. Chosen.
+/// A place within this distance of a UAV's start counts as the start. Chosen.
 inline constexpr double kBesideStartM = 1.0;
 
 /// Whether p is straight above a UAV's start, within kBesideStartM.
 bool is_above_start(const Vector3d& p_W, const Vector3d& start_W);
 
-/// z in W at which a UAV that climbs straight up from p_W has left the box in which p_W is, and those that it gets into
-/// on its way out.
+/// Height (z in W) at which a UAV that climbs straight up from p_W has left the box that contains p_W, and all further
+/// boxes that it enters on its way.
 /// @param margin_m  least distance to a box outside.   @returns nullopt if p_W is in no box.
 std::optional<double> way_out_m(const std::vector<OrientedBox>& boxes, const Vector3d& p_W, double margin_m);
 

@@ -12,7 +12,7 @@
 namespace skein::agent {
 namespace {
 
-TEST(Site, TopIsThatOfTheHighestCornerHoweverABoxIsTurned) {
+TEST(Site, TheTopOfTurnedBoxesIsTheirHighestCorner) {
   OrientedBox low, tilted;
   low.size = {10.0, 10.0, 4.0};
   tilted.center = {0.0, 0.0, 20.0};
@@ -34,7 +34,7 @@ TEST(Site, ASiteBoxIsWideBothWaysAndHigh) {
   }
 }
 
-TEST(Site, TheWayOutLeadsThroughAllBoxesThatFollowOneAnother) {
+TEST(Site, TheWayOutLeavesAllBoxesThatTheUavEntersOnItsClimb) {
   int more = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     RandomStream random(seed, "way_out", 0);
@@ -67,7 +67,7 @@ TEST(Site, TheWayOutLeadsThroughAllBoxesThatFollowOneAnother) {
   EXPECT_GT(more, 10) << "the way out often leads through further boxes";
 }
 
-TEST(Due, OccursOncePerPeriodAndInAnotherExchangeWithAnotherOffset) {
+TEST(Due, ATaskIsDueOncePerPeriodAndTheOffsetShiftsIt) {
   const AgentConfig agent;
   std::set<std::uint64_t> first, second;
   for (std::uint64_t k = 0; k < 100; ++k) {

@@ -6,12 +6,12 @@ namespace {
 using What = Doing::What;
 
 constexpr double kGoalMoved_m = 0.5;  ///< a goal that has moved by no more is still the same; chosen
-constexpr double kBetween_s = 0.5;    ///< a shorter time without a goal is the moment between two goals; chosen
+constexpr double kBetween_s = 0.5;    ///< a shorter time without a goal counts as a change of goals; chosen
 constexpr double kMateBreak_s = 0.5;  ///< longest break within one wait, as in Agent::waits(); chosen
 constexpr double kNoWayTold_s = 1.0;  ///< least time for which a reason is reported; chosen
 constexpr double kStands_mps = 0.3;   ///< a slower UAV stands; chosen
 constexpr double kHere_m = 0.7;       ///< a UAV this near to its goal is there; chosen
-constexpr double kStandsFor_s = 1.0;  ///< what lasts as long is reported; chosen
+constexpr double kStandsFor_s = 1.0;  ///< a standstill of at least this long is reported; chosen
 
 bool is_between(const ActivityFacts& facts) {
   const auto* doing = std::get_if<Doing>(&facts.what);

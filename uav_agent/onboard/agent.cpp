@@ -28,10 +28,10 @@ namespace {
 
 constexpr double kBodyMarginM = 0.3;  ///< margin around a known body; chosen
 constexpr double kGroundM = 0.3;      ///< hits of a LiDAR below this height are the ground; chosen
-constexpr double kScanAgeS = 0.1;     ///< a scan is at most so much older than the known positions of UAVs; sensor
+constexpr double kScanAgeS = 0.1;     ///< a scan is at most this much older than the known positions of UAVs; sensor
 constexpr double kBodySigmas = 3.0;   ///< standard deviations of the relative position that enlarge a body; chosen
 constexpr double kWaitBreak_s = 0.5;  ///< a planner that waits again within this time has not stopped; chosen
-constexpr double kTie_s = 1e-6;       ///< of times: against rounding
+constexpr double kTie_s = 1e-6;       ///< against rounding: times less than this apart are equal
 
 WorldMap::Config world_map_config() {
   WorldMap::Config config;

@@ -133,7 +133,7 @@ TEST_F(AgentTest, KeepsThePointOfAimInTheImage) {
   EXPECT_LE(std::abs(step().gimbal->yaw), M_PI / 2.0 + 1e-9) << "behind: as far as the gimbal goes";
 }
 
-TEST_F(AgentTest, APeerThatWasNeverSeenCountsAtItsStart) {
+TEST_F(AgentTest, APeerThatWasNeverSeenIsAssumedToBeAtItsStart) {
   auto points = wall();
   for (float a = 0.0F; a < 6.0F; a += 0.4F) points.emplace_back(20.0F + 0.5F * std::cos(a), 0.5F * std::sin(a), 0.6F);
   input_.key_frames = {{.points_W = points}};
@@ -180,7 +180,7 @@ TEST_F(AgentTest, DeliversThroughTheDirectLinkOnly) {
   EXPECT_EQ(tape_.undelivered, 0U);
 }
 
-TEST_F(AgentTest, ItsPlannerSeesTheKeyFramesAsTheyCame) {
+TEST_F(AgentTest, ThePlannerSeesTheKeyFramesUnfiltered) {
   input_.key_frames = {{.points_W = wall(), .source = node_of_uav(UavIndex{0})},
                        {.points_W = {{1.0F, 2.0F, 3.0F}}, .source = Node{2}}};
   step();
@@ -191,7 +191,7 @@ TEST_F(AgentTest, ItsPlannerSeesTheKeyFramesAsTheyCame) {
   EXPECT_TRUE(tape_.key_frames.empty()) << "in the exchange in which they came, and no other";
 }
 
-TEST_F(AgentTest, ScansAreForThosePlannersThatAskForThem) {
+TEST_F(AgentTest, APlannerThatAsksForScansGetsThem) {
   class Looker final : public Planner {
    public:
     PlannerOutput plan(const PlannerInput& in) override {
@@ -207,7 +207,7 @@ TEST_F(AgentTest, ScansAreForThosePlannersThatAskForThem) {
   EXPECT_TRUE(looker.step(input_).trigger);
 }
 
-TEST_F(AgentTest, AMapOfAllBeamsIsForThosePlannersThatAskForIt) {
+TEST_F(AgentTest, APlannerThatAsksForTheWorldMapGetsIt) {
   struct Looker final : Planner {
     PlannerOutput plan(const PlannerInput& in) override {
       map = in.world_map;
@@ -242,7 +242,7 @@ TEST_F(AgentTest, AMapOfAllBeamsIsForThosePlannersThatAskForIt) {
   }
 }
 
-TEST_F(AgentTest, BeamsAreForThosePlannersThatAskForThem) {
+TEST_F(AgentTest, APlannerThatAsksForBeamsGetsBeamsButNoScans) {
   class Looker final : public Planner {
    public:
     PlannerOutput plan(const PlannerInput& in) override {

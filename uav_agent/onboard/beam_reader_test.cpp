@@ -107,7 +107,7 @@ TEST_F(BeamReaderTest, AnEmptyCloudIsAScanWithoutReturns) {
 }
 
 // The pose may also be off by exactly a column or a ring, so that each point lies on the line of another beam.
-TEST_F(BeamReaderTest, OdometryOrServoThatDoNotFitLeaveTheWholeScanUnknown) {
+TEST_F(BeamReaderTest, WrongOdometryOrServoAnglesLeaveTheWholeScanUnknown) {
   const LidarConfig config;
   const double column = 2.0 * std::numbers::pi / config.columns, ring = 2.0 * kRadPerDeg;
   const RigidBodyState state = state_;
@@ -178,7 +178,7 @@ TEST_F(BeamReaderTest, WithoutServoOrOdometryNothingIsKnown) {
   }
 }
 
-TEST_F(BeamReaderTest, OtherUavsAreNoStructureAndHideIt) {
+TEST_F(BeamReaderTest, HitsOnOtherUavsAreNoStructureAndBeamsPastThemProveNothing) {
   const LidarConfig config;
   const Scan scan = drawn(config, 6);
   const Isometry3d X_WL = lidar_pose(state_.X_WB(), servo_.angle);
@@ -211,7 +211,7 @@ TEST_F(BeamReaderTest, OtherUavsAreNoStructureAndHideIt) {
 
 /// The other UAV is ahead, behind, above, on the axis, across the seam of the columns, near, far, or around the LiDAR
 /// itself.
-TEST_F(BeamReaderTest, MarksTheSameBeamsWhereverTheOtherUavIs) {
+TEST_F(BeamReaderTest, MarksTheBeamsThatMeetAnotherUavWhereverItIs) {
   LidarConfig one_ring, wide, odd;
   one_ring.rings = 1;
   wide.vertical_fov_deg = 170.0;

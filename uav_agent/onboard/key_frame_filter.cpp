@@ -1,7 +1,7 @@
 #include "uav_agent/onboard/key_frame_filter.hpp"
 
-// The filters are compiled here: libpcl_filters and what it needs would have a program resolve 60,000 symbols at its
-// start, which is most of the time that a program takes to start.
+// Compiles PCL's filters in this file. With libpcl_filters and its dependencies, a program would have to resolve 60,000
+// symbols at its start, which takes most of its start-up time.
 #define PCL_NO_PRECOMPILE
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>

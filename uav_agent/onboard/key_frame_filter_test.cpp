@@ -50,7 +50,7 @@ TEST(KeyFrameFilter, DropsALonePointButKeepsAThinMember) {
   EXPECT_LT(nearest(kept, {-10.0, 0.0, 6.8}), 0.5);
 }
 
-TEST(KeyFrameFilter, KeepsWhatHasEnoughNeighboursAndNothingElse) {
+TEST(KeyFrameFilter, KeepsOnlyPointsWithEnoughNeighbours) {
   std::size_t kept_in_all = 0, dropped_in_all = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     RandomStream random(seed, "cloud", 0);

@@ -83,7 +83,7 @@ class Talkers {
     }
   }
 
-  /// @returns exchanges until one knows what the other does, without scans; `most` if it never does.
+  /// @returns number of exchanges, without scans, until the listener knows all of the teller's map; at most `most`.
   int exchanges_to_know(std::size_t listener, std::size_t teller, int most) {
     for (int count = 0; count < most; ++count) {
       if (count % 10 == 0 && test::knows_all_of(map(listener), map(teller))) return count;

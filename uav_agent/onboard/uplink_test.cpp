@@ -47,7 +47,7 @@ TEST(Uplink, BoundsBytesAndKeepsOrderButNeverStarves) {
   EXPECT_EQ(order, (std::vector<std::uint64_t>{2, 4, 5, 9}));
 }
 
-TEST(Uplink, IgnoresWhatTheCameraRepeatsAfterARestart) {
+TEST(Uplink, IgnoresReportsThatTheCameraRepeats) {
   Uplink uplink;
   uplink.take({report(0), report(1), report(2)});
   uplink.acknowledge({0, 2});
@@ -102,7 +102,7 @@ TEST(Uplink, RemembersExactlyWhatWasAcknowledged) {
 }
 
 // The last number has no successor; its range must not be joined to that of the first.
-TEST(Uplink, TheLastNumberIsNotNextToTheFirst) {
+TEST(Uplink, TheLastCaptureNumberIsNotJoinedToTheFirst) {
   constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
   Uplink uplink;
   uplink.acknowledge({0, 1, kLast});

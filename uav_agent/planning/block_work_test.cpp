@@ -74,7 +74,7 @@ TEST(BlockWork, ThereIsNothingToDoWhereTheMapShowsNothing) {
   EXPECT_FALSE(work.next(0, Vector3d::Zero(), OccupancyMap()));
 }
 
-TEST(BlockWork, ItsStripsRunAlongTheStructure) {
+TEST(BlockWork, StripsRunAlongTheStructure) {
   const AgentConfig agent = named_fleet(1, 0);
   const CameraReach reach;
   BlockWork work({}, agent, reach, {site()});

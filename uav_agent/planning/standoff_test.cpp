@@ -34,7 +34,7 @@ void add_wall(OccupancyMap& map, const auto& depth, std::optional<Vector3d> seen
   map.insert(hits, seen_from);
 }
 
-TEST(Standoff, WithoutAMapItIsFromTheFaceOfTheBox) {
+TEST(Standoff, WithoutAMapTheStandoffIsFromTheFaceOfTheBox) {
   const Facade facade;
   const OccupancyMap map;
   const auto runs =
@@ -72,7 +72,7 @@ TEST(Standoff, DoesNotEnterTheBoxWhereNoUavHasLooked) {
   }
 }
 
-TEST(Standoff, LeavesOutWhatAnotherBoxHides) {
+TEST(Standoff, LeavesOutThePartOfTheStripInAnotherBox) {
   Facade facade;
   OrientedBox roof;  // juts out over the upper part of the facade
   roof.center = {0.0, 0.0, 42.0};

@@ -12,9 +12,10 @@ constexpr double kTurnS = 3.0;       ///< least time for the change from one str
 constexpr double kFlatFace = 0.7;    ///< a face with a greater |n_z| is a top or a bottom; chosen
 constexpr double kMinBottomM = 3.0;  ///< least height above lowest_m of the UAV below a bottom face; chosen
 constexpr int kTwoOptPasses = 20;    ///< chosen: bounds the CPU time
-constexpr double kNotWider = 0.15;   ///< so much of a strip's width at a face's edge gets no strip; chosen
-constexpr double kInset = 0.25;      ///< a strip ends so far inside the face, in its lengths or widths; chosen
-constexpr double kNotLess = 1e-9;    ///< a smaller difference is a rounding error
+constexpr double kNotWider = 0.15;   ///< this share of a width at a face's edge gets no strip of its own; chosen
+/// A strip ends inside the face by this share of the face's length or of the strip's width, whichever is less. Chosen.
+constexpr double kInset = 0.25;
+constexpr double kNotLess = 1e-9;  ///< a smaller difference is a rounding error
 
 struct Face {
   std::size_t box = 0;

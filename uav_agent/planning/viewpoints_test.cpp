@@ -63,7 +63,7 @@ TEST(Viewpoints, RingsAroundBoxesKeepTheStandoffAndGoDown) {
   }
 }
 
-TEST(Viewpoints, VisibilityIsThatOfRays) {
+TEST(Viewpoints, VisibilityAgreesWithMarchingAlongTheSegment) {
   const VoxelGrid grid = scattered(0.08);
   Draw draw;
   int visible = 0, hidden = 0, differing = 0;
@@ -101,7 +101,7 @@ TEST(Viewpoints, RingsHaveTheirRadii) {
   }
 }
 
-TEST(Viewpoints, ClustersAreNearAndSeeTheirFirst) {
+TEST(Viewpoints, PlacesOfAClusterAreNearItsFirstAndInItsSight) {
   const VoxelGrid grid = scattered(0.1);
   Draw draw;
   std::vector<Vector3d> places;

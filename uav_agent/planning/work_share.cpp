@@ -80,7 +80,7 @@ WorkShare team_share(const AgentConfig& agent, const std::vector<OrientedBox>& b
   }
   const std::vector<Visit> tour = share_strips(all.strips, all.work_s, starts, config.transit_mps, team_size)[own];
   WorkShare share{.strips = std::move(all.strips), .tour = {}};
-  // The explorer, which is the first of its team, gets the second strip of each n: of three, the middle one.
+  // In a team of n UAVs, the explorer, which is the first, gets the second of each n strips: of three, the middle one.
   const std::size_t size = teams[own].size();
   for (std::size_t i = 0; i < tour.size(); ++i) {
     if ((i + size - 1) % size == rank) share.tour.push_back(tour[i]);

@@ -11,12 +11,13 @@
 namespace skein::agent::python {
 namespace {
 
-constexpr std::size_t kWords = 624;  // format of a Mersenne twister: these, and one that says how far they are used up
+constexpr std::size_t kWords = 624;  // format of a Mersenne Twister: its words; one more counts the words used up
 
 using Twister = std::vector<std::uint32_t>;
 
-/// The two global generators: where their twisters lie in memory. To ask for their states would take longer than a
-/// small planner does. NumPy tells the address; of `random`'s it is found, and without it the slow way is gone.
+/// The two global generators, and where the states of their Mersenne Twisters are in memory. Reading the states through
+/// Python would take longer than plan() of a small planner. NumPy states the address of its own; find_random() searches
+/// that of `random`. If it finds none, getstate() and setstate() are used.
 class Globals {
  public:
   Globals() {
@@ -30,11 +31,11 @@ class Globals {
   }
 
   py::object random, numpy;
-  std::span<std::uint32_t> numpy_twister, random_twister;  ///< the latter: empty where it was not found
+  std::span<std::uint32_t> numpy_twister, random_twister;  ///< random_twister is empty if it was not found
 
  private:
-  /// CPython has the count before the words. Looked for by what getstate() says, so a build that has it elsewhere is
-  /// not misread.
+  /// Searches the object for the numbers that getstate() returns, so that a build with another layout is not misread.
+  /// CPython stores the count before the words.
   std::span<std::uint32_t> find_random() const {
     Twister words;
     const py::tuple numbers = random.attr("getstate")().cast<py::tuple>()[1];
@@ -57,7 +58,7 @@ const Globals& globals() {
 struct Belongings::Generators {
   Twister random, numpy;
   py::object random_state = py::none(), gauss_next = py::none();  ///< of `random`
-  py::object numpy_rest = py::none();  ///< of NumPy's, where it has a number of its Gaussian in store
+  py::object numpy_rest = py::none();  ///< NumPy's whole state, if it has a Gaussian number in store; else None
 
   void save() {
     const Globals& of = globals();
@@ -71,7 +72,7 @@ struct Belongings::Generators {
     numpy_rest = state["has_gauss"].cast<int>() != 0 ? state : py::object(py::none());
   }
 
-  /// @param in_store  whether NumPy's generator has such a number that this object did not store.
+  /// @param in_store  whether NumPy's generator now has a Gaussian number in store, of another planner.
   void load(bool in_store) const {
     const Globals& of = globals();
     if (of.random_twister.empty()) of.random.attr("setstate")(random_state);

@@ -1,5 +1,5 @@
-// What belongs to one planner of an interpreter that several may share: its modules, the head of Python's search path,
-// and the states of the global random generators, `random`'s and NumPy's.
+// The state that each planner has for itself although several share one interpreter: its modules, the first entry of
+// Python's search path, and the states of the global random generators of `random` and NumPy.
 // Threads: the interpreter's.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 class Belongings {
  public:
-  /// @param folder  of the planner's file. @param seed, uav  that the generators are seeded with.
+  /// @param folder  of the planner's file. @param seed, uav  seed the generators.
   Belongings(std::string folder, std::uint64_t seed, const std::string& uav);
   ~Belongings();
   Belongings(const Belongings&) = delete;

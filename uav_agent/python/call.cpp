@@ -29,7 +29,7 @@ std::string Call::kept() const {
     return {};
   };
   if (first().empty()) return {};
-  py::module_::import("gc").attr("collect")();  // a cycle that no variable refers to any more
+  py::module_::import("gc").attr("collect")();  // frees cycles of objects that no variable refers to
   return first();
 }
 

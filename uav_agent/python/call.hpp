@@ -18,7 +18,7 @@ namespace py = pybind11;
 
 class Call {
  public:
-  /// @param in  must live until end(). @param order  with which the agent made the planner; must outlive this.
+  /// @param in  must live until end(). @param order  the agent made the planner from it; must outlive this.
   Call(const PlannerInput& in, const Order& order) : in_(&in), order_(order) {}
 
   const Order& order() const { return order_; }

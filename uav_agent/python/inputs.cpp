@@ -67,7 +67,7 @@ py::object flight_of(const FlightState& flight) {
                               tuple_of(flight.outcomes, outcome));
 }
 
-/// The parts of a Call from which a field is made.
+/// The object of which Python reads the fields of a PlannerInput.
 struct Source {
   std::shared_ptr<Call> call;
 };
@@ -146,7 +146,7 @@ py::object radio_of(const PlannerInput& in) {
 using Make = std::function<py::object(const std::shared_ptr<Call>&, const PlannerInput&)>;
 using CallPtr = std::shared_ptr<Call>;
 
-/// By the field's name in skein.planner.PlannerInput.
+/// How each field is made, by its name in skein.planner.PlannerInput.
 const std::map<std::string_view, Make>& fields() {
   using In = PlannerInput;
   static const std::map<std::string_view, Make> kFields = {

@@ -1,4 +1,4 @@
-// A PlannerInput as Python reads it: each field when it is asked for (skein.planner.PlannerInput).
+// A PlannerInput for Python (skein.planner.PlannerInput). Each field is converted only when Python reads it.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -9,13 +9,13 @@
 
 namespace skein::agent::python {
 
-/// Its class, once.
+/// Registers the class from which Python reads the fields. Call it once.
 void register_inputs(py::module_& module);
 
-/// The inputs of a call.
+/// The inputs of a call as a skein.planner.PlannerInput.
 py::object inputs_of(const std::shared_ptr<Call>& call);
 
-/// skein.planner.AgentConfig
+/// The configuration as a skein.planner.AgentConfig.
 py::object to_python(const AgentConfig& agent);
 
 }  // namespace skein::agent::python

@@ -12,7 +12,8 @@
 namespace skein::agent::python {
 namespace {
 
-/// For skein check-planner: another seed of hashes, and so another order of sets of texts. 0, the usual one: none.
+/// Environment variable with which `skein check-planner` sets another hash seed, and so another order of sets of texts.
+/// 0, the default: hashes are not randomised.
 constexpr const char* kHashSeed = "SKEIN_HASH_SEED";
 
 void require(const PyStatus& status) {
@@ -21,7 +22,8 @@ void require(const PyStatus& status) {
                    (status.err_msg != nullptr ? status.err_msg : "it does not say why"));
 }
 
-/// NumPy's modules take Python's symbols from the process, and this one was loaded for itself alone.
+/// Makes the symbols of Python's library global: NumPy's modules look them up in the process, but dlopen() has loaded
+/// skein_python and its libraries with local symbols.
 void show_symbols() {
   Dl_info info{};
   if (::dladdr(reinterpret_cast<void*>(&Py_InitializeFromConfig), &info) != 0) {
@@ -29,7 +31,7 @@ void show_symbols() {
   }
 }
 
-/// Debian's, or that of the user's virtual environment.
+/// The Python program of the user's virtual environment, or else Debian's.
 std::string program_name() {
   const char* environment = std::getenv("VIRTUAL_ENV");
   const std::string own = environment == nullptr ? "" : std::string(environment) + "/bin/python3";
@@ -37,8 +39,8 @@ std::string program_name() {
   return !own.empty() && std::filesystem::exists(own, none) ? own : "/usr/bin/python3";
 }
 
-/// Nothing of a run depends on the locale, the order of hashes or the user's settings of the interpreter. Signals
-/// are the agent's.
+/// Starts Python so that no run depends on the locale, the order of hashes or the user's settings of the interpreter.
+/// Python leaves signals to the agent.
 void start() {
   PyPreConfig before;
   PyPreConfig_InitPythonConfig(&before);
@@ -66,13 +68,13 @@ Interpreter* started(const std::filesystem::path& package_folder) {
   start();
   try {
     if (!package_folder.empty()) py::module_::import("sys").attr("path").attr("insert")(0, package_folder.string());
-    // A processor may lack what NumPy is told to do without.
+    // NumPy warns if its environment variable disables a feature that the processor does not have.
     py::module_::import("warnings").attr("filterwarnings")("ignore", "During parsing environment variable");
     py::module_::import("_skein_planner");
     auto embedded = py::module_::import("skein._embedded");
     if (!package_folder.empty()) py::module_::import("sys").attr("path").attr("pop")(0);
     embedded.attr("prepare")();
-    return new Interpreter{embedded, Words(py::module_::import("skein.planner"))};  // for good
+    return new Interpreter{embedded, Words(py::module_::import("skein.planner"))};  // never deleted
   } catch (py::error_already_set& error) {
     throw InputError("--planner py:...: Python does not find what planners need: " + std::string(error.what()) +
                      "\nDebian's packages python3-skein and python3-numpy have it");
@@ -125,7 +127,7 @@ std::string explanation(py::error_already_set& error) {
   try {
     const py::object frames = error.trace() ? py::object(error.trace()) : py::object(py::none());
     return interpreter().embedded.attr("explain")(error.value(), frames).cast<std::string>();
-  } catch (py::error_already_set& another) {  // its own text cannot be had
+  } catch (py::error_already_set& another) {  // the text of the exception cannot be made
     return another.what();
   }
 }

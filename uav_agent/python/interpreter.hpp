@@ -1,6 +1,6 @@
-// The interpreter of this process, and the words of skein.planner in it. It is started for the first planner and never
-// ended: what planners leave behind may be asked for until the process ends.
-// Threads: the one that started it, which holds Python's lock for good.
+// The Python interpreter of this process, and the classes of skein.planner in it. It is started for the first planner
+// and never ended, because objects of planners may be used until the process ends.
+// Threads: the one that started it, which never releases Python's lock (GIL).
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,7 +13,7 @@ namespace skein::agent::python {
 
 namespace py = pybind11;
 
-/// Classes of the package.
+/// Classes of the module skein.planner.
 struct Words {
   explicit Words(const py::module_& planner);
 
@@ -27,14 +27,15 @@ struct Interpreter {
   Words words;
 };
 
-/// @param package_folder  see Order. @throws InputError when the package or NumPy is not there, at the first call.
+/// Starts the interpreter at the first call. @param package_folder  see Order.
+/// @throws InputError if the package `skein` or NumPy is missing, at the first call.
 const Interpreter& interpreter(const std::filesystem::path& package_folder = {});
 
 inline const Words& words() { return interpreter().words; }
 
-/// The exception that is being handled, with the user's traceback.
+/// The text of an exception, with the traceback of the user's code.
 std::string explanation(py::error_already_set& error);
-/// skein._embedded.Wrong: its text says all. @returns whether it is one
+/// Whether it is a skein._embedded.Wrong: its text is complete without a traceback.
 bool is_wrong_input(const py::error_already_set& error);
 
 }  // namespace skein::agent::python

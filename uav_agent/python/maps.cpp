@@ -11,9 +11,9 @@
 namespace skein::agent::python {
 namespace {
 
-/// Numeric: beyond, cells have no numbers.
+/// Numeric: places farther away are in cells without a valid number.
 constexpr double kFarthest_m = 1e5;
-constexpr double kLongest_m = 1e4, kWidest_m = 50.0;  ///< of segments, and about them; chosen: bounds the CPU time
+constexpr double kLongest_m = 1e4, kWidest_m = 50.0;  ///< segments; radii around them; chosen: bounds the CPU time
 constexpr std::int64_t kMostCubes = 64'000'000;       ///< memory
 
 struct MapOfCall {
@@ -35,7 +35,7 @@ struct PythonFreeSpace : MapOfCall {
 }
 
 void check_places(const Eigen::Ref<const Eigen::ArrayXd>& numbers, const char* name) {
-  if ((numbers.abs() <= kFarthest_m).all()) return;  // a NaN is none
+  if ((numbers.abs() <= kFarthest_m).all()) return;  // false for NaN
   refuse(name, "finite numbers within 100 km");
 }
 
@@ -72,7 +72,7 @@ double within_reach(double value, double most, const char* name) {
 }
 
 int rays_of(int rays) {
-  // Format: a map counts no more (maps/ray_blocks.hpp).
+  // Format: a map does not count more rays than this (maps/ray_blocks.hpp).
   if (rays < 1 || rays > 20) refuse("rays", "within [1, 20]");
   return rays;
 }
@@ -84,7 +84,7 @@ struct Segment {
   const Vector3d a_W, b_W;
 };
 
-/// Asks for one place, or for N.
+/// Calls `ask` for one place, or for each of N places.
 template <class T, class Ask>
 py::object at_each(const py::object& value, const Ask& ask) {
   const Numbers numbers = numbers_of(value, "p_W");

@@ -1,4 +1,4 @@
-// The maps as Python asks them: skein.maps says what each function answers.
+// The maps for Python; the module skein.maps documents their functions.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -9,7 +9,7 @@
 
 namespace skein::agent::python {
 
-/// Their classes, once.
+/// Registers the classes of the maps. Call it once.
 void register_maps(py::module_& module);
 
 /// The maps of a call; None if the planner has no such map.

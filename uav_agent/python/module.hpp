@@ -1,5 +1,5 @@
-// The interface between an agent and the shared object that contains Python (skein_python). The object links none of
-// the agent's code: it asks maps through MapQueries, and the agent knows only one function of it.
+// The interface between an agent and the shared object that contains Python (skein_python). The shared object links
+// none of the agent's code: it queries maps through MapQueries. The agent calls only the two functions named below.
 // Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 
@@ -47,7 +47,7 @@ class MapQueries {
   /// Reads cubes[0] * cubes[1] * cubes[2] cubes, beginning with the one that contains `lowest_W`; x varies slowest.
   virtual void read_window(const WorldMap& map, const Vector3d& lowest_W, const Eigen::Vector3i& cubes,
                            std::uint8_t* spaces) const = 0;
-  /// Lowest corners, in the order in which they became known.
+  /// Lowest corners of the known regions, in the order in which they became known.
   virtual std::vector<Vector3d> regions(const WorldMap& map) const = 0;
 
   virtual bool free(const FreeSpace& space, const Vector3d& p_W) const = 0;
@@ -56,29 +56,30 @@ class MapQueries {
   virtual bool sees(const FreeSpace& space, const Vector3d& a_W, const Vector3d& b_W, double radius) const = 0;
 };
 
-/// The implementation in this program.
+/// The implementation in the agent.
 const MapQueries& map_queries();
 
+/// All that the shared object needs to make a planner.
 struct Order {
   PythonSpec planner;         ///< its file is absolute
   ConfigDocument parameters;  ///< of the planner
   AgentConfig agent;
   std::uint64_t seed = 0;                      ///< of the run: with the UAV's name it seeds Python's generators
-  std::vector<std::string> radio_topics = {};  ///< that this UAV may send on
-  std::optional<double> debug_from_s = {};     ///< pdb has the terminal, and stops at this simulated time first
-  std::filesystem::path package_folder = {};   ///< that holds the package `skein`; empty: Python's own path has it
+  std::vector<std::string> radio_topics = {};  ///< topics on which this UAV may send
+  std::optional<double> debug_from_s = {};     ///< pdb uses the terminal, and first stops at this simulated time
+  std::filesystem::path package_folder = {};   ///< contains the package `skein`; empty: it is on Python's own path
   const MapQueries* maps = nullptr;            ///< outlives all planners
 };
 
-/// The file, beside the programs or in lib/skein of where they are installed.
+/// File name of the shared object. It is in the folder of the programs, or in lib/skein beside that folder.
 inline constexpr const char* kModule = "libskein_python.so";
-/// Its function, extern "C"; it throws InputError for what is wrong in the order, the user's own code included.
+/// Its function (extern "C") that makes a planner. It throws InputError for errors in the order and in the user's code.
 inline constexpr const char* kMakePlanner = "skein_make_python_planner";
 using MakePlanner = void(const Order& order, std::unique_ptr<Planner>& planner);
-/// For which interface it was built, extern "C".
+/// Its function (extern "C") that returns the version of the interface for which the shared object was built.
 inline constexpr const char* kInterface = "skein_python_interface";
 using Interface = const char*();
-/// Rises with what is in this header or in a PlannerInput or PlannerOutput.
+/// Raise it when you change this header, PlannerInput or PlannerOutput.
 inline constexpr const char* kInterfaceVersion = "1";
 
 }  // namespace skein::agent::python

@@ -130,7 +130,8 @@ std::optional<std::size_t> read_mate(py::handle value, const Place& place, const
 std::vector<DebugValue> read_debug(py::handle value, const Place& place, const std::vector<std::string>& names) {
   if (PyDict_Check(value.ptr()) == 0) place.refuse("a dictionary of numbers by name", value);
   std::vector<DebugValue> values;
-  const auto own = py::reinterpret_steal<py::dict>(PyDict_Copy(value.ptr()));  // numbers may run a user's code
+  // A copy, because reading numbers may run the user's code, which may change the dictionary.
+  const auto own = py::reinterpret_steal<py::dict>(PyDict_Copy(value.ptr()));
   for (const auto& [key, number] : own) {
     const std::string name = read_text(key, Place(place, "key"));
     if (std::ranges::find(names, name) == names.end()) {

@@ -1,4 +1,4 @@
-// A PlannerOutput as Python gave it (skein.planner.PlannerOutput).
+// Reads and checks the PlannerOutput that Python returns (skein.planner.PlannerOutput).
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,8 +12,8 @@ namespace py = pybind11;
 /// The limits against which an output is checked.
 struct OutputRules {
   const Order& order;
-  bool flown = false;                         ///< by the flight core: goals count, motion does not
-  std::vector<std::string> debug_names = {};  ///< that were declared
+  bool flown = false;                         ///< the flight core flies the UAV: goals are allowed, motion is not
+  std::vector<std::string> debug_names = {};  ///< names that the planner declared
 };
 
 /// @param value  what plan() returned. @throws WrongOutput for anything that cannot be flown.

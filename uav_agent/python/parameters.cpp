@@ -14,7 +14,7 @@ namespace {
 
 /// One field of a Config.
 struct Field {
-  std::string name, kind;  ///< as skein._embedded.parameters() says
+  std::string name, kind;  ///< as skein._embedded.parameters() returns them
   bool optional = false, required = false;
   Bounds bounds;
 };
@@ -45,14 +45,14 @@ py::object read_by_kind(ConfigReader& reader, const Field& field, bool is_null) 
   return read_field<std::string>(reader, field);
 }
 
-/// Lays a FlightConfig out as Python's.
+/// Copies a FlightConfig to a skein.planner.FlightConfig.
 struct ToPython {
   const py::object& config;
   void field(const char* key, double& value, const Bounds&) { config.attr(key) = value; }
   void field(const char* key, bool& value) { config.attr(key) = value; }
 };
 
-/// The other way round, within the bounds.
+/// Copies a skein.planner.FlightConfig to a FlightConfig, and checks the bounds.
 struct FromPython {
   py::handle config;
   void field(const char* key, double& value, const Bounds& bounds) {

@@ -1,4 +1,4 @@
-// Parameters of a planner in Python: its Config, a dataclass, read by the reader of all configuration.
+// Parameters of a planner in Python: reads its Config, a dataclass, with the ConfigReader that reads all configuration.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -10,11 +10,11 @@ namespace skein::agent::python {
 
 namespace py = pybind11;
 
-/// @param planner  its class. @returns the fields of its Config that the document has, and its FlightConfig if any.
-/// @throws InputError for keys and values that are wrong, py::error_already_set for a Config that is.
+/// @param planner  class of the planner. @returns the fields of its Config that the document sets, and its FlightConfig
+/// if it has one. @throws InputError for wrong keys and values, py::error_already_set for a wrong Config.
 py::dict read_parameters(const py::object& planner, const ConfigDocument& document);
 
-/// What a planner's flight() returned. @throws WrongOutput
+/// Reads the FlightConfig that a planner's flight() returned. @throws WrongOutput
 FlightConfig read_flight_config(py::handle value);
 
 }  // namespace skein::agent::python

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where Debian's Python has packages, below what Skein is installed in.
+/// Folder of packages of Debian's Python, below the folder in which Skein is installed.
 constexpr const char* kPackages = "lib/python3/dist-packages";
 
 fs::path module_file() {
@@ -34,7 +34,7 @@ fs::path module_file() {
                    " or beside it; Debian's package python3-skein has it, and a build of Skein makes it");
 }
 
-/// The package `skein` that belongs to this program; empty: Python finds it by itself.
+/// The folder of the package `skein` that belongs to this program; empty: Python finds the package by itself.
 fs::path package_folder() {
   const fs::path config = default_config_dir();
   std::error_code none;

@@ -25,7 +25,7 @@ TEST_F(PythonPlannerTest, InputsArriveAsTheyAre) {
   EXPECT_EQ(refusal(*planner), "");
 }
 
-TEST_F(PythonPlannerTest, PeersTellHowFarTheirPositionsAreToBeTrusted) {
+TEST_F(PythonPlannerTest, PeersHaveTheDeviationOfTheirPositions) {
   agent_.odometry = {.horizontal_sigma_m = 3.0, .vertical_sigma_m = 2.0, .bias_sigma_m = 4.0, .known_start = true};
   seen_ = {{{.node = Node{2}, .p_W = {8.0, 0.0, 5.0}, .v_W = Vector3d(1.0, 0.0, 0.0)}}};
   const auto planner = planning(

@@ -1,4 +1,4 @@
-// Numbers and arrays on their way into Python and out of it.   Units: as they are.
+// Converts numbers, arrays and texts to Python and back.   Units are not converted.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -14,13 +14,13 @@ namespace skein::agent::python {
 
 namespace py = pybind11;
 
-/// A planner gave something that cannot be flown; the text says where it stands and what would be right.
+/// A planner returned a wrong value. The text names its place in the output and states the right values.
 class WrongOutput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Where in an output something stands: "motion.waypoints[2].p_WB". It costs nothing until its text is asked for.
+/// Place of a value in an output: "motion.waypoints[2].p_WB". The text is built only when text() is called.
 class Place {
  public:
   explicit Place(const char* name) : name_(name) {}
@@ -28,7 +28,7 @@ class Place {
   Place(const Place& parent, std::size_t index) : parent_(&parent), index_(static_cast<std::ptrdiff_t>(index)) {}
 
   std::string text() const;
-  /// @throws WrongOutput "place: must be `wanted`, not what it is".
+  /// @throws WrongOutput with the text "<place>: must be <wanted>, not <value>".
   [[noreturn]] void refuse(const std::string& wanted, py::handle value) const;
 
  private:
@@ -37,21 +37,21 @@ class Place {
   std::ptrdiff_t index_ = -1;
 };
 
-/// An array of three that is Python's own.
+/// A new array, with memory of its own.
 py::object to_array(const Vector3d& vector);
 py::object to_array(const Matrix3d& matrix);
-/// A text whatever bytes it has.
+/// A text of any bytes: those that are not UTF-8 become surrogates.
 py::object to_text(const std::string& bytes);
 
-// @throws WrongOutput
+// All of these throw WrongOutput if the value has another type or is out of range.
 Vector3d read_vector(py::handle value, const Place& place);
 double read_number(py::handle value, const Place& place);
 std::int64_t read_integer(py::handle value, const Place& place);
 bool read_bool(py::handle value, const Place& place);
-/// Bytes of a text, without NUL.
+/// The UTF-8 bytes of a text, which must not contain NUL.
 std::string read_text(py::handle value, const Place& place);
 std::string read_bytes(py::handle value, const Place& place);
-/// A list or tuple, and no text. @param of  for people: "Waypoints"
+/// The items of a list or tuple. @param of  their name in the error message: "Waypoints".
 py::tuple read_list(py::handle value, const Place& place, const std::string& of);
 
 }  // namespace skein::agent::python

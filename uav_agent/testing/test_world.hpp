@@ -1,6 +1,6 @@
 // A small world for tests of planners: solid boxes, UAVs that are exactly where they were commanded to be, and key
 // frames with all sampled surface points in line of sight within 40 m. Agents that ask for beams also get the scans of
-// a LiDAR on its servo (test_lidar.hpp). No physics, no noise: what goes wrong here is the planner's fault.
+// a LiDAR on its servo (test_lidar.hpp). No physics, no noise: each failure here is the planner's fault.
 // Frame W.   Units: SI and radians.   Threads: one.
 #pragma once
 

@@ -22,9 +22,9 @@ class FlockCamera {
   static constexpr double kMissedS = 0.25;  ///< a point is missing if pictures should have shown it for so long; chosen
   static constexpr double kMostGapS = 0.5;  ///< most time between two calls of expect() in one stretch; chosen
   static constexpr std::size_t kMissing = 6;  ///< number of missing points from which the camera has failed; chosen
-  /// They are missing from so many places, at least so far apart. Measured: in recorded flights in towers and cranes, a
-  /// working camera misses points from at most two places 3 m apart, but from three places 1 m apart (estimated from
-  /// trajectories and scenes).
+  /// Points must be missing from this many places, at least kApartM apart, before the camera has failed. Measured: in
+  /// recorded flights in towers and cranes, a working camera misses points from at most two places 3 m apart, but from
+  /// three places 1 m apart (estimated from trajectories and scenes).
   static constexpr std::size_t kPlaces = 4;
   static constexpr double kApartM = 3.0;  ///< measured, as above
 

@@ -37,7 +37,7 @@ void show_new_points(FlockCamera& camera, std::size_t count, int looks, const Ve
 
 /// Points that stay hidden, moments in which nothing is in view, or one place that shows nothing: a camera that works
 /// may have all of these.
-TEST(FlockCamera, LittleEvidenceIsNotHeldAgainstIt) {
+TEST(FlockCamera, LittleEvidenceDoesNotProveAFailure) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "little_evidence", 0);
     FlockCamera camera;
@@ -204,7 +204,7 @@ TEST(FlockCamera, ClearPointsAreInTheMiddleOfThePicture) {
 }
 
 /// When the planner notices that its camera has failed, it forgets the faces that it assumed to have photographed.
-TEST(FlockCamera, PicturesThatWereNotTakenAreTakenBack) {
+TEST(FlockCamera, PicturesOfAFailedCameraNoLongerCount) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     FlockAtLongWall uav(seed);
     FlockSurfaces surfaces = uav.surfaces_of(uav.agent);

@@ -22,7 +22,7 @@ struct FlockConfig {
   double inspect_mps = 4.0;
   int max_views = 160;      ///< most views evaluated in one decision; chosen: bounds the CPU time
   int depth = 4;            ///< number of views planned ahead; chosen; measured with 1, too: docs/flock.md
-  double glance_s = 0.45;   ///< so long, the camera follows a place on the way to a view; 0: it does not; chosen
+  double glance_s = 0.45;   ///< time for which the camera follows a place on the way to a view; 0: never; chosen
   double replan_s = 1.5;    ///< time between two decisions; chosen; decision 36 tries one at each view, too
   double share_s = 0.5;     ///< time between two messages; chosen
   double claim_s = 4.0;     ///< age at which another UAV's claim of a view expires; 0: claims do not count; chosen

@@ -36,7 +36,7 @@ constexpr std::uint64_t kCameraSteps = 3;  ///< exchanges between two updates fr
 constexpr double kRestS = 0.5;             ///< time between two decisions while there is nothing to photograph; chosen
 constexpr std::size_t kMostLegs = 3;       ///< most views in a goal for the flight core; chosen
 constexpr int kTries = 4;            ///< most routes tried in a decision, if there is no way to the first view; chosen
-constexpr double kAimAheadS = 0.9;   ///< so long before a view, the camera turns to it; chosen
+constexpr double kAimAheadS = 0.9;   ///< the camera turns to a view this long before the UAV gets there; chosen
 constexpr double kSeekAfterS = 4.0;  ///< after resting for so long (chosen), the flight core searches paths to ...
 constexpr std::size_t kMostSought = 4;  ///< ... so many views (chosen), ...
 constexpr double kSeekS = 12.0;         ///< ... and after this time to others; chosen
@@ -150,7 +150,7 @@ void FlockPlanner::look_around(const PlannerInput& in) {
   }
 }
 
-/// The camera has failed, or works again: what this UAV was about to do no longer makes sense.
+/// Call it when the camera has failed or works again: drops the plans, which assumed the opposite.
 void FlockPlanner::change_work() {
   if (camera_.failed()) surfaces_->forget_pictures();
   route_.clear();
@@ -333,10 +333,10 @@ void FlockPlanner::offer(const PlannerInput& in, const std::optional<std::vector
 }
 
 /// For a UAV without any view within its reach. A photographer follows an explorer. Otherwise, the flight core searches
-/// paths to views that the UAV cannot reach through the cubes of its map; a UAV below a canopy perhaps. If there are
-/// none, an explorer leaves it to the flight core's recovery to see more of the site, and other UAVs hover. With a
-/// goal, the flight core begins no recovery behaviour. A UAV whose camera has failed waits aside, at a place from which
-/// the camera would see known points.
+/// paths to views that the UAV cannot reach through the cubes of its map, for example from below a canopy. If there are
+/// none, an explorer with gaps left to survey leaves the flight core without a goal, so that its recovery behaviour
+/// shows more of the site. Other UAVs hover at a goal, because with a goal the core begins no recovery behaviour. A UAV
+/// whose camera has failed waits aside, at a place from which the camera would see known points.
 /// @param sought_W  the best views that are out of reach.
 void FlockPlanner::rest(const PlannerInput& in, std::vector<Vector3d> sought_W, PlannerOutput& out) {
   route_.clear();

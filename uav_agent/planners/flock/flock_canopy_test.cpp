@@ -18,7 +18,7 @@ TestScene canopy(std::uint64_t seed) {
   return scene;
 }
 
-TEST(FlockCanopy, AnExplorerBelowItFindsWork) {
+TEST(FlockCanopy, AnExplorerThatStartsBelowACanopyFindsWork) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const TestScene scene = canopy(seed);
     TestWorld world(scene, {{"a", Role::explorer, {0.0, 0.0}}}, "flock", 150.0);

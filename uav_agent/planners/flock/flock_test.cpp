@@ -122,7 +122,7 @@ TEST(FlockSurfaces, APointThatGetsNoBetterIsLeftAloneForATime) {
 }
 
 /// A picture from far away does not show a face well enough. The same picture again gains nothing; a nearer one does.
-TEST(FlockSurfaces, APoorPictureIsNotPromisedAgain) {
+TEST(FlockSurfaces, APoorPictureGainsNothingASecondTime) {
   BeforeAWall uav;
   const FlockViews views(uav.flock, uav.agent, kSharpM);
   const auto gain = [&](double off_m) {
@@ -167,9 +167,9 @@ TEST(FlockSurfaces, ATargetThatTheCameraCannotLookAtIsLeftOutForATime) {
   EXPECT_EQ(uav.told_faces(), 0U);
 }
 
-/// A UAV that takes boxes for structure, because it flies without a map, tells no other UAV so: others know better. In
-/// a fleet that has no LiDAR at all, all UAVs take them for structure.
-TEST(FlockSurfaces, AUavThatTakesBoxesForStructureDoesNotTellOthersSo) {
+/// A UAV that takes boxes for structure, because it flies without a map, does not report them: others know more. In a
+/// fleet that has no LiDAR at all, all UAVs take them for structure.
+TEST(FlockSurfaces, AUavThatTakesBoxesForStructureDoesNotReportThem) {
   BeforeAWall uav;
   const auto occupied = [](const VoxelGrid& grid) {
     std::size_t count = 0;
@@ -188,7 +188,7 @@ TEST(FlockSurfaces, AUavThatTakesBoxesForStructureDoesNotTellOthersSo) {
 
 /// The qualities that a view before the wall promises are those of the score's formulas for that picture. No view shows
 /// anything on the wall's far side.
-TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
+TEST(FlockViews, AViewPromisesTheQualitiesOfThePictureFromThere) {
   BeforeAWall uav;
   const FlockViews views(uav.flock, uav.agent, kSharpM);
   const FlockTargets targets(uav.surfaces->targets(0), views.range_m());
@@ -210,7 +210,7 @@ TEST(FlockViews, ShowWhatAPictureFromThereWouldShow) {
   }
 }
 
-/// The less work there is, the more it is worth to look for some; without a lack of it, no explorer looks.
+/// The less work there is, the more it is worth to survey gaps. Without a lack of work, no explorer surveys any.
 TEST(FlockViews, GapsAreWorthMoreTheLessWorkThereIs) {
   BeforeAWall uav;
   const FlockViews views(uav.flock, uav.agent, kSharpM);
@@ -230,7 +230,7 @@ TEST(FlockViews, GapsAreWorthMoreTheLessWorkThereIs) {
 
 /// For a while, a UAV leaves out a view that it could not reach, and those beside it. A UAV that makes no progress
 /// leaves its view.
-TEST(FlockReach, LeavesWhatItCannotReachForAWhile) {
+TEST(FlockReach, AUavLeavesOutUnreachableViewsForAWhile) {
   FlownUav uav(three_uavs(1), {0.0, 0.0, 10.0});
   const FlockTalk talk({}, uav.agent);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -300,7 +300,7 @@ TEST(Flock, PhotographersThatStartInABoxFindWorkOutsideIt) {
 
 /// Drawn views of drawn targets: a route of one view is the best by gain a second, and a longer one counts what two of
 /// its views show only once.
-TEST(FlockRoute, TakesWhatBringsMostASecondAndCountsNothingTwice) {
+TEST(FlockRoute, TakesTheViewsThatGainMostPerSecondAndCountsNoTargetTwice) {
   const std::vector<OrientedBox> boxes = {make_box({0, 0, 12}, {40, 40, 24})};
   const VoxelGrid grid = operational_volume(boxes, {}, 12.0, 0.0, 2.0);
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {

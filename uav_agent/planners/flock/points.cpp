@@ -95,7 +95,7 @@ std::optional<std::size_t> FlockPoints::add(const Told& told, const Spot& spot, 
   if (!regions_.contains(spot.cell) && regions_.size() >= kMostRegions) return std::nullopt;
   Region& region = regions_[spot.cell];
   const std::size_t point = points_.size();
-  if (!region.points.emplace(spot.place, point).second) return std::nullopt;  // that of another point
+  if (!region.points.emplace(spot.place, point).second) return std::nullopt;  // another point is there
   points_.push_back({told.p_W, told.n_W.normalized(), told.q});
   if (p_WC != nullptr && told.n_W.dot(*p_WC - told.p_W) < 0.0) points_.back().n_W *= -1.0;
   spots_.push_back(spot);
@@ -105,7 +105,7 @@ std::optional<std::size_t> FlockPoints::add(const Told& told, const Spot& spot, 
   return point;
 }
 
-/// Updates a point with a better quality that another UAV has reported.
+/// Updates a known point after a detection by this UAV or another one: its place, and its quality if that is better.
 void FlockPoints::raise(std::size_t point, const Told& told, const Spot& spot) {
   if (told.own && merge_m_ > 0.0) {
     own_[*told.own] = point;
@@ -148,7 +148,7 @@ std::optional<std::size_t> FlockPoints::nearest(const Told& told, const std::set
 void FlockPoints::move(std::size_t point, const Spot& to, const Vector3d& p_W) {
   if (!regions_.contains(to.cell) && regions_.size() >= kMostRegions) return;
   Region& there = regions_[to.cell];
-  if (!there.points.emplace(to.place, point).second) return;  // that of another point
+  if (!there.points.emplace(to.place, point).second) return;  // another point is there
   there.changed = true;
   Region& from = regions_[spots_[point].cell];
   from.points.erase(spots_[point].place);

@@ -144,9 +144,9 @@ TEST(FlockPoints, DenseRegionsAreSentInSlices) {
   }
 }
 
-/// The points of a dense region take turns in slices, and other regions, more or fewer of them each time, always have
-/// news. UAVs still send every point, and the news of the other regions.
-TEST(FlockPoints, NoSliceStarvesWhateverElseChanges) {
+/// A dense region is sent in slices, while a changing number of other regions have news in each round. The sender still
+/// sends every point of the dense region and the news of the others.
+TEST(FlockPoints, EverySliceIsSentEvenIfOtherRegionsKeepChanging) {
   constexpr std::size_t kRoom = 1500, kPointsInRoom = kRoom / 10;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     RandomStream random(seed, "slices", 0);

@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kRefusedS = 15.0;   ///< so long, a UAV leaves out a view that it could not reach, ...; chosen
+constexpr double kRefusedS = 15.0;   ///< time for which a UAV leaves out a view that it could not reach, ...; chosen
 constexpr double kRefusedM = 2.0;    ///< ... and views this near to it; chosen
 constexpr double kShutOffS = 5.0;    ///< the same for views to which no free cubes of the map lead; chosen
 constexpr double kApartM = 4.5;      ///< least distance of a view to other UAVs, and to their next views; chosen

@@ -16,7 +16,8 @@ constexpr double kLowestM = 0.3;        ///< surface below this height does not 
 constexpr double kEndCubes = 1.2;       ///< last part of a line of sight that belongs to the surface; chosen
 constexpr double kPriorM2 = 200.0;      ///< surface with the expected density that the estimate begins with; chosen
 constexpr double kClearlyBetter = 0.1;  ///< least improvement of quality that counts; chosen
-/// Detections of a point are this near: standard deviations, relative, per axis. Chosen.
+/// Detections of two UAVs may be of the same point up to this distance, in standard deviations of their relative
+/// position along an axis. Chosen.
 constexpr double kMergeSigmas = 2.0;
 constexpr double kFacing = 0.17;                    ///< least cosine between line of sight and a face's normal; chosen
 constexpr double kClear = 0.6, kClearFacing = 0.3;  ///< clear view of a point: least quality; least such cosine; chosen

@@ -26,7 +26,7 @@ struct FlockTarget {
   double points = 1.0;   ///< known or expected number of interest points; formula: a known point is one
   double have = 0.0;     ///< quality of the best picture so far, 0 to 1
   bool known = false;    ///< a detected point; otherwise surface
-  std::uint32_t id = 0;  ///< of this target among all that ever were
+  std::uint32_t id = 0;  ///< unique among all targets of the flight
   /// Score that can still be gained [points].
   double open() const { return points * (1.0 - have); }
 };
@@ -84,7 +84,7 @@ class FlockSurfaces {
   struct Look {
     Id id = 0;
     int face = 0;
-    std::uint8_t tenths = 0;  ///< those of before (tenths_)
+    std::uint8_t tenths = 0;  ///< tenths_ of the face before the picture
     bool shown = false;       ///< the picture was good enough: the UAV has looked at the face
   };
   double voxel_area() const { return grid_.voxel_m() * grid_.voxel_m(); }

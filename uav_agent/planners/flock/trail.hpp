@@ -17,7 +17,7 @@ class FlockTrail {
   void note(const Vector3d& p_W);
   /// The newest free place at which no other UAV is; nullopt: there is none.
   std::optional<Vector3d> behind_explorer_W(const PlannerInput& in) const;
-  /// Whether it is no use to fly from one of two such places to the other.
+  /// Whether two such places are so near each other that a flight between them is useless.
   static bool same(const Vector3d& a_W, const Vector3d& b_W);
 
  private:

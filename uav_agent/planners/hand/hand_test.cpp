@@ -138,7 +138,7 @@ TEST_P(DrawnHands, HitNothingAndRepeatFromTheFile) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, DrawnHands, testing::Range<std::uint64_t>(1, 7));
 
-/// Commands that come one by one, as from a page, and the file that is kept of them, make the same flight.
+/// Commands that arrive one by one, as from the web page, and the file that records them give the same flight.
 TEST(Hand, AFileOfCommandsRepeatsTheFlight) {
   for (const char* safe : {"true", "false"}) {
     const std::vector<Wanted> commands = drawn_hands(17, 40.0);

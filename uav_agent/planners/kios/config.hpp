@@ -9,7 +9,8 @@
 
 namespace skein::agent {
 
-/// An optional parameter has two defaults, named in its comment: for faithful=false, true. resolved() fills them in.
+/// The comment of an optional parameter gives two defaults: for faithful=false, then for faithful=true. resolved() sets
+/// them.
 struct KiosConfig {
   static constexpr int kMostReserve = 7;  ///< limit of `reserve`; chosen: a message names all claimed cubes
 
@@ -23,17 +24,17 @@ struct KiosConfig {
   double nearest_ratio = 0.6;  ///< least distance to the surface where there is room, in units of d*; chosen
   double settle_mps = 0.3;     ///< a UAV slower than this is steady (chosen), ...
   double aim_deg = 5.0;        ///< ... a camera this near to its direction is aimed (chosen), ...
-  double dwell_s = 0.25;       ///< ... and the UAV stays so long, steady and aimed: two pictures; chosen
+  double dwell_s = 0.25;       ///< ... and the UAV stays steady and aimed for this time: two pictures; chosen
   double stop_s = 2.0;         ///< assumed duration of a stop in the planned tours; chosen
   int max_tasks = 150;         ///< most waypoints that are assigned at once; chosen
   int effort = 60'000;         ///< most moves that the tour search evaluates; chosen
   int reserve = 2;             ///< cubes ahead that a UAV claims besides the one it is in; chosen
   double share_s = 0.5;        ///< time between two messages; chosen
-  double claim_s = 3.0;        ///< after which a claim expires; chosen
+  double claim_s = 3.0;        ///< age at which a claim expires; chosen
   /// 45, never: longest time that a photographer waits for the explorers' map, from when it could work.
   std::optional<double> wait_s = {};
-  std::optional<double> silence_s = {};  ///< 45, never: nor longer after it saw an explorer fly
-  std::optional<bool> maps_anew = {};    ///< false, true: a restarted explorer reports `mapping` to its last lane
+  std::optional<double> silence_s = {};  ///< 45, never: the same since it last saw an explorer fly
+  std::optional<bool> maps_anew = {};    ///< false, true: a restarted explorer reports `mapping` for all its lanes
   bool faithful = false;                 ///< photographers wait for an explorer's report for ever
   FlightConfig flight = {};
 

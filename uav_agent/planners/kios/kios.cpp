@@ -41,7 +41,7 @@ constexpr double kSmallestVoxelM = 2.5, kLargestVoxelM = 6.0;  ///< limits of th
 /// Lanes lie at least kLaneUpM above this share of the site's height. Chosen.
 constexpr double kLaneHeight = 0.25, kLaneUpM = 2.0;
 constexpr double kRestS = 1.0;          ///< wait when no stop can be reached; chosen
-constexpr double kStayS = 2.0;          ///< a waiting UAV renews its goal, the place where it is, so often; chosen
+constexpr double kStayS = 2.0;          ///< interval at which a waiting UAV renews its goal, its own place; chosen
 constexpr double kAimPatienceS = 3.0;   ///< longest stay at a stop: the gimbal cannot reach some directions; chosen
 constexpr std::size_t kCandidates = 5;  ///< most stops proposed to the flight core at once; chosen
 constexpr int kMostMoreLanes = 3;       ///< how often an explorer without stops may fly more lanes; chosen
@@ -109,7 +109,7 @@ class KiosPlanner final : public Planner {
   Tick not_before_ = 0;                                ///< of the next action in this phase
   std::int64_t id_ = 0;                                ///< id of the last goal
   std::optional<VoxelGrid> grid_;                      ///< set when the boxes have arrived
-  Tick mapped_at_ = std::numeric_limits<Tick>::max();  ///< restarted: reports `mapping` no longer from then on
+  Tick mapped_at_ = std::numeric_limits<Tick>::max();  ///< after a restart: when it stops reporting `mapping`
   std::vector<Candidate> candidates_;                  ///< best first
   std::optional<KiosStop> stop_;                       ///< the stop that it flies to or photographs from
   std::vector<Waypoint> way_;                          ///< to this stop

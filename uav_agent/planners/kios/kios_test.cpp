@@ -158,7 +158,7 @@ TEST(Kios, StaysAtAWaypointUntilItHasLooked) {
   EXPECT_NE(next->front().way.back().p_WB, core.p_W);
 }
 
-TEST(Kios, FliesAlsoWhereCubesOfItsSizeWouldBeTooMany) {
+TEST(Kios, FliesWhereCubesOfTheConfiguredSizeWouldBeTooMany) {
   CoreOfTest core(agent_of(0, 1, 0));
   core.boxes = {make_box({0.0, 0.0, 50.0}, {1200.0, 1000.0, 100.0})};
   const auto planner = make_planner("kios:voxel_m=1", core.agent);
@@ -238,8 +238,8 @@ TEST(Kios, PhotographersWaitUntilTheExplorersHaveFlownTheirLanes) {
   EXPECT_GT((world.position(1) - waits).norm(), 3.0);
 }
 
-// An explorer that has not come to the end of its lanes keeps no UAV on the ground for long.
-TEST(Kios, PhotographersWaitNoLongerThanTheyAreAskedTo) {
+// An explorer that has not flown all its lanes does not keep photographers waiting for longer than wait_s.
+TEST(Kios, PhotographersWaitNoLongerThanConfigured) {
   TestWorld patient(two_towers(), test_fleet(3), "kios:map_mps=0.5", 120.0);
   TestWorld hasty(two_towers(), test_fleet(3), "kios:map_mps=0.5,wait_s=5", 120.0);
   patient.run(35.0);

@@ -111,7 +111,7 @@ TEST(KiosStops, AreFreeAndInFrontOfTheirFacesOnAnyMap) {
   }
 }
 
-TEST(KiosStops, AFaceIsLookedAtFromBesideWhatStandsInFrontOfIt) {
+TEST(KiosStops, AStopLiesAsideIfStructureStandsInFrontOfItsFace) {
   LoneCube world;
   world.tell({17.4, 12.4, 12.4});
   world.boxes = {make_box({12.5, 12.5, 12.5}, {4.0, 5.0, 5.0})};
@@ -153,7 +153,7 @@ TEST(KiosStops, NoStopIsInUnseenSpaceAndAStopIsProvedOnlyIfABodyFits) {
   }
 }
 
-TEST(KiosStops, ToursGoAroundStructureLast) {
+TEST(KiosStops, ToursVisitStopsBehindStructureLast) {
   VoxelGrid grid = wide_grid();
   for (int z = 0; z < 4; ++z) grid.raise(*grid.at(VoxelGrid::Cell(6, 1, z)), VoxelState::occupied);
   std::vector<KiosStop> stops(2);

@@ -67,7 +67,7 @@ class LearnerOrders : public testing::Test {
   Block block_{lay_out(orders_)};
 };
 
-TEST_F(LearnerOrders, AreToStayInTheBeginning) {
+TEST_F(LearnerOrders, TheUavIsToStayUntilTheFirstOrder) {
   EXPECT_FALSE(orders_.is_news(0));
   EXPECT_EQ(orders_.velocity(), HandCommand{});
   EXPECT_TRUE(orders_.way().empty());
@@ -121,7 +121,7 @@ TEST_F(LearnerOrders, AreReadAsTheyWereWritten) {
 }
 
 // Another program may write any bytes into the block, so no number in it may lead beyond its tables.
-TEST_F(LearnerOrders, OfAnyBytesStayWithinTheBlock) {
+TEST_F(LearnerOrders, AnyBytesAreReadWithinTheTables) {
   for (int i = 0; i < kDraws; ++i) {
     block_.at<std::int64_t>("waypoints") = static_cast<std::int64_t>(random_.bits());
     block_.at<std::int8_t>("gimbal_kind") = static_cast<std::int8_t>(random_.bits());
@@ -131,7 +131,7 @@ TEST_F(LearnerOrders, OfAnyBytesStayWithinTheBlock) {
   }
 }
 
-// ---- what it does with them -------------------------------------------------------------------------------------
+// ---- outputs of the planner ----------------------------------------------------------------------------------------
 
 TEST(Learner, ObeysEachOrderOnce) {
   FlownUav uav(fleet_of(3, Role::explorer, 1), {0.0, 0.0, 20.0});
@@ -157,7 +157,7 @@ TEST(Learner, ObeysEachOrderOnce) {
   }
 }
 
-// ---- what it shows ----------------------------------------------------------------------------------------------
+// ---- observations --------------------------------------------------------------------------------------------------
 
 class LearnerObservation : public testing::Test {
  protected:

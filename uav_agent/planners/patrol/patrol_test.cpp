@@ -105,7 +105,7 @@ TestScene tower_with_a_screen() {
   return scene;
 }
 
-TEST(Patrol, TheMapIsWhatKeepsItOffAnObstacleOutsideTheBoxes) {
+TEST(Patrol, OnlyTheMapKeepsItAwayFromAnObstacleOutsideTheBoxes) {
   TestWorld with_map(tower_with_a_screen(), {{"a", Role::explorer, {-10.0, -14.0}}}, "patrol", 120.0);
   with_map.run(120.0);
   EXPECT_GT(with_map.clearance(), kExplorerRadiusM + 0.4);

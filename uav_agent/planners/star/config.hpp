@@ -22,7 +22,7 @@ struct StarConfig {
   double explore_mps = 2.5;  ///< chosen as in SOAR; FUEL: 2
   double inspect_mps = 2.0;  ///< chosen as in Star-Searcher
   double replan_s = 1.5;     ///< time between two plans; chosen as in FUEL
-  double covered_s = 0.5;    ///< the same once the target is done; chosen as in FUEL
+  double covered_s = 0.5;    ///< least time between two plans once the target is done; chosen as in FUEL
   double turn_s = 1.5;       ///< cost of a change of direction, per radian; chosen: FUEL's weight
   double round_m = 2.0;      ///< most distance from a corner at which the path cuts it off; chosen
   double horizon_m = 20.0;   ///< length of the path that is planned ahead; chosen

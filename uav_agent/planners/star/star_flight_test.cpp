@@ -108,7 +108,7 @@ TEST(StarFlight, AGoalThatCannotBeReachedIsPutOff) {
 }
 
 /// An explorer reports at which of two boxes it is. Its photographer flies there while it knows of no surface.
-TEST(StarFlight, WithoutSurfaceItGoesWhereItsExplorerWorks) {
+TEST(StarFlight, APhotographerWithoutSurfaceFliesToItsExplorersBox) {
   for (const std::size_t box : {0U, 1U}) {
     AtWork uav;
     uav.boxes = {make_box({30.0, -18.0, 9.0}, {6.0, 6.0, 14.0}), make_box({30.0, 18.0, 9.0}, {6.0, 6.0, 14.0})};
@@ -157,15 +157,15 @@ std::size_t places_before_walls(const std::string& planner, std::size_t photogra
   return near;
 }
 
-TEST(StarFlight, ExplorersInspectWhereTheyAreAskedToOrNoOtherUavCan) {
+TEST(StarFlight, ExplorersInspectOnlyIfConfiguredOrWithoutPhotographers) {
   EXPECT_LT(places_before_walls("star", 1), places_before_walls("star:explorers_inspect=true", 1) / 4);
   EXPECT_GT(places_before_walls("star:explorers_inspect=true,faithful=true", 1), 20U)
       << "a parameter that is given wins";
   EXPECT_GT(places_before_walls("star", 0), 20U) << "it has no photographer";
 }
 
-/// One of two boxes belongs to another team. A team whose own box is explored and photographed goes on to that one, or
-/// stays.
+/// One of two boxes belongs to another team. A team whose own box is explored and photographed goes on to the other box
+/// with `helps`, and stays without it.
 TEST(StarFlight, ATeamThatHasNothingLeftToDoHelpsUnlessItIsFaithful) {
   for (const bool helps : {true, false}) {
     AgentConfig agent = photographer_and_explorer();

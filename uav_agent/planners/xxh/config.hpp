@@ -43,16 +43,17 @@ constexpr std::array<EnumName<XxhWaitAt>, 2> enum_names(XxhWaitAt) {
   return {{{"sight", XxhWaitAt::sight}, {"entry", XxhWaitAt::entry}}};
 }
 
-/// An optional parameter has two defaults, named in its comment: for faithful=false, true. resolved() fills them in.
+/// The comment of an optional parameter gives two defaults: for faithful=false, then for faithful=true. resolved() sets
+/// them.
 struct XxhConfig {
   // The assignment at the ground station.
   /// Time without a new report after which the list of UAVs is closed. Chosen as in the public code.
   double freeze_s = 10.0;
-  std::optional<bool> reported_only =
-      {};  ///< false, true: waits so long even if all have reported, and leaves out the others
-  /// Between two publications, as long as a UAV lacks the assignment. Chosen; public code: 0.1.
+  /// false, true: the station waits freeze_s even if all UAVs have reported, and leaves out UAVs that have not.
+  std::optional<bool> reported_only = {};
+  /// Time between two publications, as long as a UAV lacks the assignment. Chosen; public code: 0.1.
   double assign_every_s = 0.5;
-  double assignment_wait_s = 15.0;  ///< after which a UAV computes the assignment itself; chosen
+  double assignment_wait_s = 15.0;  ///< time after which a UAV computes the assignment itself; chosen
   /// Allowed error of a team's share, in shares of all volume; else a box is cut. Chosen as in the public code.
   double split_tolerance = 0.05;
   std::optional<int> rounds = {};  ///< 8, 1: rounds through all regions: an early one may find places unreachable
@@ -65,13 +66,13 @@ struct XxhConfig {
   int spiral_step = 6;                    ///< layers between two turns of the spiral; chosen
   std::optional<XxhBegin> begin = {};     ///< base, path
   std::optional<bool> first_turn = {};    ///< false, true: only the first turn of the spiral in each section
-  std::optional<double> retry_s = {};     ///< 30, 0: for this long tries again, if no place of a section was reached
-  std::optional<double> time_share = {};  ///< 0.4, 0: of the remaining time, for all sections together; 0: no limit
+  std::optional<double> retry_s = {};     ///< 30, 0: how long a section is tried again of which no place was reached
+  std::optional<double> time_share = {};  ///< 0.4, 0: share of the remaining time for all sections; 0: no limit
   double explore_mps = 4.0;               ///< greatest speed along the spiral; chosen; public code: 2
   std::optional<XxhWaitAt> wait_at = {};  ///< sight, entry
 
   // Inspecting.
-  std::optional<int> layer_step = {};  ///< 1, 3: number of layers of which one is inspected
+  std::optional<int> layer_step = {};  ///< 1, 3: of this many successive layers, one is inspected
   std::optional<XxhOrder> order = {};  ///< spiral, nearest
   double standoff_ratio = 0.6;         ///< distance to the surface, in units of d*, where there is room; chosen
   /// A target is reached if the camera is this near to its direction (chosen as in the public code) ...
@@ -79,7 +80,7 @@ struct XxhConfig {
   double settle_mps = 0.4;                  ///< ... and the UAV slower than this; chosen
   double dwell_s = 0.3;                     ///< time for the pictures of a target once it is reached; chosen
   double cell_s = 3.0;                      ///< longest time at one cell; chosen as in the public code
-  std::optional<double> leader_share = {};  ///< 0.5, 1: of the layers, in units of a follower's; it begins last
+  std::optional<double> leader_share = {};  ///< 0.5, 1: the leader's layers per follower's; it begins last
 
   // The team.
   double share_s = 0.5;                     ///< time between two messages; chosen
@@ -88,7 +89,7 @@ struct XxhConfig {
   std::optional<double> silence_s = {};     ///< 45, never: silence of a UAV after which others do not wait for it
   std::optional<double> gather_s = {};      ///< 60, never: longest wait of the leader for the last of its team
   std::optional<double> hand_over_s = {};   ///< 25, never: the same for members that have not received their order
-  std::optional<double> look_again_s = {};  ///< 10, never: between two more passes of a waiting UAV over its section
+  std::optional<double> look_again_s = {};  ///< 10, never: pause of a waiting UAV between passes over its section
 
   bool faithful = false;  ///< like the public code, with its known defects
   FlightConfig flight = {};

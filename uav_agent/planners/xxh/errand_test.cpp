@@ -57,7 +57,7 @@ struct Asked : FlownUav {
   std::vector<Goal> asked;
 };
 
-TEST(XxhErrand, EndsWithTheFirstChoiceThatIsReachedAndNothingElseIsFlownTo) {
+TEST(XxhErrand, EndsWithTheFirstReachedChoiceAndFliesToNoOther) {
   Asked uav;
   uav.set_out(3);
   uav.becomes(0, Kind::no_way);
@@ -87,7 +87,7 @@ TEST(XxhErrand, IsUnderWayUntilAllChoicesHaveFailed) {
   EXPECT_FALSE(uav.errand.under_way());
 }
 
-TEST(XxhErrand, AUavThatWasCalledAwayChoosesAnew) {
+TEST(XxhErrand, ChoicesAreDroppedWhenTheFlightCoreDoesSomethingElse) {
   Asked uav;
   uav.set_out(2);
   uav.flight.working = false;
@@ -168,7 +168,7 @@ TEST(XxhPost, IsTheFirstPlaceThatIsFreeAndTheUavStaysThere) {
   EXPECT_EQ(uav.asked[0].way.front().p_WB, kPosts[2]);
 }
 
-TEST(XxhPost, WhereNoPlaceIsFreeTheUavWaitsWhereItIsAndTriesAgain) {
+TEST(XxhPost, WithoutAFreePostTheUavWaitsWhereItIsAndTriesAgain) {
   AtPost uav;
   uav.stay({{20.0, 0.0, 1.0}});
   ASSERT_EQ(uav.asked.size(), 1U);
@@ -178,7 +178,7 @@ TEST(XxhPost, WhereNoPlaceIsFreeTheUavWaitsWhereItIsAndTriesAgain) {
   EXPECT_EQ(uav.asked[0].way.front().p_WB, kPosts[1]);
 }
 
-TEST(XxhPost, LeavesItToTheCoreForAWhileWhenThereIsNoWay) {
+TEST(XxhPost, WithoutAPathTheUavSetsNoGoalForAWhileSoThatTheCoreCanRecover) {
   AtPost uav;
   uav.stay(kPosts);
   uav.becomes(0, Kind::no_way);

@@ -222,7 +222,7 @@ TEST(XxhGround, AssignsWhatEachUavWouldAssignItself) {
   }
 }
 
-TEST(XxhGround, AUavThatCouldNotReportBelongsToTheFleetAllTheSame) {
+TEST(XxhGround, AUavThatCouldNotReportIsAssignedFromItsNominalStart) {
   const Ground ground;
   for (const UavIndex uav : FirstUavs(4)) {
     EXPECT_EQ(ground.team(uav, {0, 2}, true), ground.team(uav, {}, false));

@@ -84,7 +84,7 @@ struct LoneCell {
   }
 };
 
-TEST(XxhRegion, CellsBesideAnOccupiedOneAreVisitedAndLookAtIt) {
+TEST(XxhRegion, CellsBesideAnOccupiedCellAreVisitedToLookAtIt) {
   const LoneCell world;
   std::size_t found = 0;
   for (int layer = 0; layer < world.region.grid().dims().z(); ++layer) {
@@ -188,7 +188,7 @@ TEST(XxhRegion, SurfaceOutsideTheBoxIsNoTarget) {
 
 // With structure at random places: targets are faces of the structure on the map, and each face that is visible from
 // the cell beside it is a target of that cell, and of no other.
-TEST(XxhRegion, EveryFaceThatCanBeSeenIsOneTarget) {
+TEST(XxhRegion, EveryExposedFaceIsATargetOfExactlyOneCell) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(seed, "region", 0);
     XxhRegionMap region = region_map(seed % 2 == 0);
@@ -219,7 +219,7 @@ TEST(XxhRegion, EveryFaceThatCanBeSeenIsOneTarget) {
   }
 }
 
-TEST(XxhRegion, AnUnknownSectionIsNotEmptyAndOneThatWasSeenToBeFreeIs) {
+TEST(XxhRegion, ASectionIsEmptyOnlyIfItWasSeenToBeFree) {
   XxhRegionMap region = region_map();
   const auto all = region.section(0, 1, 1.0);
   WorldMap map{WorldMap::Config{}};
@@ -285,7 +285,7 @@ TEST_P(XxhInspectorLayers, AreVisitedThreeTimesIfTargetsAreNotReached) {
   }
 }
 
-TEST(XxhInspector, VisitsTheCellThatItCameToAndLooksAtItsTargets) {
+TEST(XxhInspector, VisitsTheCellThatItReachedAndLooksAtItsTargets) {
   Inspecting world(Outcome::Kind::reached);
   std::vector<Goal> goals;
   for (int i = 0; i < 100 && goals.empty(); ++i) goals = world.exchange();

@@ -102,7 +102,7 @@ TEST(XxhWorksite, BeginsInTheOpenIfAPlaceOfTheFirstTurnIsProved) {
   }
 }
 
-TEST(XxhWorksite, ADecisionForTheOtherEndTurnsTheMapAndOneForThisEndKeepsIt) {
+TEST(XxhWorksite, OnlyADecisionForTheOtherEndReplacesTheMap) {
   AtWorksite at;
   at.enter(upright());
   const auto id = *at.site.map().grid().at(upright().center);

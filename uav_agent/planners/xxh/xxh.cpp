@@ -38,8 +38,8 @@ constexpr std::size_t kMostUavsOfXxh = std::numeric_limits<std::uint8_t>::max();
 constexpr int kFruitless = 8;        ///< after so many unreachable choices in a row (chosen), the flight core ...
 constexpr double kGivesWayS = 5.0;   ///< ... has so much time to take the UAV elsewhere; chosen
 constexpr double kSeekFootS = 40.0;  ///< longest time to prove free space at the foot of an upright region; chosen
-constexpr double kFreshS =
-    10.0;  ///< so long after a restart in flight, others' reports may tell the team's region; chosen
+/// For this time after a restart in flight, the other UAVs' reports may tell the team's region. Chosen.
+constexpr double kFreshS = 10.0;
 
 }  // namespace
 

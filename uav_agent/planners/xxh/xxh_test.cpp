@@ -99,7 +99,7 @@ TEST(Xxh, WithoutALidarItLooksAtTheBoxes) {
   EXPECT_GT(world.clearance(), kPhotographerRadiusM + 0.5);
 }
 
-TEST(Xxh, FaithfulToThePublicCodeItStillHitsNothing) {
+TEST(Xxh, AFaithfulFleetHitsNothing) {
   TestWorld world(two_towers(), test_fleet(4), "xxh:faithful=true", 200.0);
   world.run(200.0);
   EXPECT_GT(world.highest_m(0), 1.5);
