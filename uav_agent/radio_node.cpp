@@ -28,7 +28,7 @@ void RadioNode::declare(bus::LockstepClient& client, std::vector<RadioMessage>& 
     if (!declared.insert(sent.topic).second) continue;
     client.declare_writer(bus::spec({sent.topic, sent.type, false, topics::kRadioDepth}), Counterpart::router);
   }
-  // All sources of a topic arrive on one: the receiver cannot tell them apart, as in CARIC.
+  // The messages of all sources arrive on one DDS topic, so the receiver cannot tell the sources apart, as in CARIC.
   for (const NodeTopic& arriving : node_topics_.arriving) {
     if (!declared.insert(arriving.topic).second) continue;
     client.read<msg::String>(bus::spec({arriving.topic, arriving.type, false, topics::radio_depth(nodes_)}),

@@ -16,7 +16,7 @@ AgentConfig fleet_in_a_row(std::size_t count, std::size_t self) {
   return config;
 }
 
-TEST(Peers, AreAllOthersAtTheirStartsUntilSeen) {
+TEST(Peers, OtherUavsAreAssumedAtTheirStartsUntilSeen) {
   const Peers peers(fleet_in_a_row(3, 1));
   ASSERT_EQ(peers.all().size(), 2U);
   EXPECT_EQ(peers.all()[0].uav, 0U);
@@ -60,7 +60,7 @@ TEST(Peers, TakeVelocityFromSuccessivePositionsAndForgetItAfterAGap) {
   EXPECT_EQ(peers.all()[0].a_W, Vector3d::Zero()) << "the velocity before is too old";
 }
 
-TEST(Peers, HaveTheLinkOfThisExchangeAndNoOther) {
+TEST(Peers, HaveOnlyTheLinkOfThePresentExchange) {
   Peers peers(fleet_in_a_row(3, 0));
   const std::vector<Neighbour> both = {{.node = kStationNode}, {.node = Node{2}}};
   const LinkQuality good{-50.0, 1.6e6}, poor{-81.0, 1.6e5};

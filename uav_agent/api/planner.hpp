@@ -84,7 +84,8 @@ struct PlannerOutput {
   Motion motion = {};
   std::optional<double> yaw = {};  ///< [rad] the tracker turns the body to it; only on a Path or Hold
   GimbalAim gimbal = {};           ///< aim of the camera
-  bool trigger = false;  ///< take a picture now; the first trigger ends the camera's automatic rhythm for good
+  bool trigger =
+      false;  ///< take a picture now; the first trigger ends the camera's automatic rhythm until the end of the run
   std::vector<RadioMessage> radio = {};  ///< on topics that the scenario lets this UAV send on
   /// Goals, best first: the flight core flies to the first one that it can reach. An empty list: the UAV hovers, and
   /// after 4 s the core begins a recovery behaviour; to wait at a place, make that place a goal. nullopt: the last list

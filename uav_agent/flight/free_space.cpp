@@ -9,8 +9,8 @@ namespace skein::agent {
 namespace {
 
 constexpr double kSampleM = 0.5;      ///< between the samples of a segment; chosen: a cube of the map
-constexpr double kSeenAroundM = 1.0;  ///< around a place, space so far away must be known to be free, too; chosen
-/// A way out may come so much nearer to structure: the map's cubes are coarse. Chosen.
+constexpr double kSeenAroundM = 1.0;  ///< around a place, space this far away must be known to be free, too; chosen
+/// A way out may come this much nearer to structure: the map's cubes are coarse. Chosen.
 constexpr double kNearerM = 0.3;
 
 bool all_along(const Vector3d& a, const Vector3d& b, const auto& test) {

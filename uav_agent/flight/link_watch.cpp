@@ -4,7 +4,7 @@ namespace skein::agent {
 namespace {
 
 constexpr double kLinkAgeS = 1.0;  ///< time between two noted places of a link; shorter links are not noted; chosen
-constexpr double kStuckS = 5.0;    ///< without an arrival for so long, captures are not delivered from here; chosen
+constexpr double kStuckS = 5.0;    ///< without an arrival for this long, captures are not delivered from here; chosen
 
 }  // namespace
 

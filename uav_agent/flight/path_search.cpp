@@ -16,7 +16,7 @@ namespace {
 
 using Cell = Eigen::Vector3i;
 
-/// The search may begin in a cell up to so many cells from the start, along each axis. Chosen.
+/// The search may begin in a cell up to this many cells from the start, along each axis. Chosen.
 constexpr int kEscapeCells = 3;
 /// From a cell that is nearer to the goal than this, in cells, the search tries to go straight to it. Geometry:
 /// a little more than the diagonal of a cell.

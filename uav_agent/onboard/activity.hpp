@@ -55,7 +55,7 @@ class ActivityTeller {
   const std::vector<FleetMember>& fleet_;
   Activity now_;                       ///< the present description
   std::optional<Activity> told_;       ///< the last message
-  Tick due_ = 0;                       ///< when the next message is due at the latest
+  Tick due_ = 0;                       ///< latest time of the next message
   std::optional<Tick> between_since_;  ///< since when the UAV has flown to no goal
   std::optional<Tick> slow_since_;     ///< since when the UAV has stood still
   std::optional<Tick> held_since_;     ///< since when the safety filter has stopped the UAV on its way

@@ -18,9 +18,10 @@ namespace skein::agent {
 
 class FlockCamera {
  public:
-  static constexpr double kSilentS = 1.0;   ///< a camera that has detected nothing for so long is in doubt; chosen
-  static constexpr double kMissedS = 0.25;  ///< a point is missing if pictures should have shown it for so long; chosen
-  static constexpr double kMostGapS = 0.5;  ///< most time between two calls of expect() in one stretch; chosen
+  static constexpr double kSilentS = 1.0;  ///< a camera that has detected nothing for this long is in doubt; chosen
+  static constexpr double kMissedS =
+      0.25;  ///< a point that pictures should have shown for this long is missing; chosen
+  static constexpr double kMostGapS = 0.5;    ///< most time between two calls of expect() in one stretch; chosen
   static constexpr std::size_t kMissing = 6;  ///< number of missing points from which the camera has failed; chosen
   /// Points must be missing from this many places, at least kApartM apart, before the camera has failed. Measured: in
   /// recorded flights in towers and cranes, a working camera misses points from at most two places 3 m apart, but from
@@ -33,7 +34,7 @@ class FlockCamera {
 
   /// Call it in each exchange.   @param detects  a picture showed a point.
   void hear(bool detects, Tick now);
-  /// Whether it is in doubt that the camera works: then tell expect() what it should show.
+  /// Whether it is in doubt that the camera works. If so, call expect() with the points that it should show.
   bool in_doubt(Tick now) const { return seconds(now - heard_) >= kSilentS; }
   /// @param points  numbers of the known points that a picture taken now should show clearly.
   void expect(std::span<const std::size_t> points, const Vector3d& p_WC, Tick now);

@@ -5,9 +5,9 @@
 // regions in which theirs differ. Lists merge by the greater quality, in any order and any number of times. So a lost
 // region is sent again, and a UAV whose program was restarted gets everything back.
 //
-// With odometry errors, each UAV sees a point at a place of its own, which drifts. A UAV knows its own points by their
-// order. Points of others that are nearer than `merge_m` to one of its own count as the same, and the lesser of the two
-// places stays: so all UAVs end up with the same list.
+// With odometry errors, each UAV sees a point at another place, which drifts. A UAV identifies its own points by their
+// order. A point of another UAV that is nearer than `merge_m` to one of its own counts as the same, and the lesser of
+// the two places (by region, then by position) stays: so all UAVs end up with the same list.
 // Frame W.   Units: SI.   Threads: one.   Deterministic.   Bounded: kMostRegions regions, `room` bytes per message.
 #pragma once
 
@@ -36,7 +36,7 @@ struct FlockPoint {
 class FlockPoints {
  public:
   static constexpr std::size_t kMostRegions = 800;  ///< chosen: leaves room in a message beside their hashes
-  /// A point or a surface that pictures do not show although they should is left out for so long. Chosen.
+  /// A point or a surface that pictures do not show although they should is left out for this time. Chosen.
   static constexpr double kLeftOutS = 120.0;
 
   /// @param merge_m  distance within which detections may be of the same point; 0: places are exact.

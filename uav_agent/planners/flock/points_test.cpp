@@ -78,8 +78,8 @@ TEST(FlockPoints, AllUavsEndUpWithTheBestQualitiesWhateverMessagesAreLost) {
   }
 }
 
-/// Each UAV sees the scene displaced by an error of its own, which drifts. Its points are few enough to tell apart. All
-/// UAVs end up with one entry for nearly every point, with the best quality of all.
+/// Each UAV sees the scene displaced by its own error, which drifts. The points are far enough apart to be told apart.
+/// All UAVs end up with one entry for nearly every point, with the best quality of all.
 TEST(FlockPoints, DriftMakesNoNewPoints) {
   constexpr double kSigmaM = 0.2, kSpacingM = 3.0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -167,7 +167,7 @@ TEST(FlockPoints, EverySliceIsSentEvenIfOtherRegionsKeepChanging) {
     int others = 1, next_change = 0;
     Tick now = 0;
     for (std::size_t round = 0; round < rounds; ++round, now += 200) {
-      if (next_change-- == 0) {  // from now on, news in so many regions in each round
+      if (next_change-- == 0) {  // changes in how many regions there are news in each round
         others = 1 + static_cast<int>(random.bits() % static_cast<std::uint64_t>(most_others));
         next_change = static_cast<int>(random.bits() % 12);
       }

@@ -13,7 +13,7 @@ constexpr double kRefusedM = 2.0;    ///< ... and views this near to it; chosen
 constexpr double kShutOffS = 5.0;    ///< the same for views to which no free cubes of the map lead; chosen
 constexpr double kApartM = 4.5;      ///< least distance of a view to other UAVs, and to their next views; chosen
 constexpr double kStallS = 2.5;      ///< a UAV that moves no farther than kStaysM in this time is held up (chosen) ...
-constexpr double kStalledS = 6.0;    ///< ... and leaves its view out for so long; chosen
+constexpr double kStalledS = 6.0;    ///< ... and leaves its view out for this time; chosen
 constexpr double kInTheWayM = 9.0;   ///< the nearest UAV within this holds this one up, and is avoided; chosen
 constexpr double kAwayCosine = 0.2;  ///< a view is in the direction of a UAV if the cosine is greater; chosen
 

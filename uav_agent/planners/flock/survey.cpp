@@ -11,7 +11,7 @@ namespace {
 /// Looks, one per second, after which a cell is surveyed. Chosen: most of the 4 s in which the LiDAR covers all
 /// directions.
 constexpr int kEnoughLooks = 3;
-constexpr int kMostVisits = 2;  ///< a cell that is not surveyed after so many visits is given up; chosen
+constexpr int kMostVisits = 2;  ///< a cell that is not surveyed after this many visits is given up; chosen
 constexpr int kGroup = 3;       ///< cells along an edge of a group; chosen
 
 VoxelGrid cells_around(const std::vector<OrientedBox>& boxes) {

@@ -1,4 +1,4 @@
-// The size of the messages of the planner flock. What they tell: flock_test.cpp.
+// The size of the messages of the planner flock. flock_test.cpp tests their content.
 #include "uav_agent/planners/flock/talk.hpp"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kInsetM = 15.0;  ///< lanes end so far inside the boxes' extent: LiDARs reach farther; chosen
+constexpr double kInsetM = 15.0;  ///< lanes end this far inside the boxes' extent: LiDARs reach farther; chosen
 constexpr double kHeight = 0.3;   ///< of a lane in its level, as a share of the level: UAVs come from below; chosen
 
 /// Ends of one lane.

@@ -7,12 +7,13 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kSpareM = 0.3;       ///< in addition to the clearance; chosen
-constexpr double kAsideRatio = 0.35;  ///< a stop may lie so many cube edges beside the middle of the free cube; chosen
-constexpr int kShifts = 5;            ///< in the middle, and to each of the four sides; geometry
-constexpr double kBoxMarginM = 0.5;   ///< surface this far outside a box still belongs to it; chosen
-constexpr double kTurnM = 4.0;        ///< extra path per 1 - cosine between two faces' normals: around a corner; chosen
-constexpr double kAroundM = 12.0;     ///< extra path if structure is in between; chosen
+constexpr double kSpareM = 0.3;  ///< in addition to the clearance; chosen
+constexpr double kAsideRatio =
+    0.35;                            ///< a stop may lie this many cube edges beside the middle of the free cube; chosen
+constexpr int kShifts = 5;           ///< in the middle, and to each of the four sides; geometry
+constexpr double kBoxMarginM = 0.5;  ///< surface this far outside a box still belongs to it; chosen
+constexpr double kTurnM = 4.0;       ///< extra path per 1 - cosine between two faces' normals: around a corner; chosen
+constexpr double kAroundM = 12.0;    ///< extra path if structure is in between; chosen
 
 /// Whether the map knows the place to be free; the inside of structure stays unknown.
 bool seen_free(const Vector3d& p_W, const FreeSpace& space) {

@@ -41,7 +41,7 @@ class KiosStops {
     double sharp_m = CameraReach().sharp_distance_m;      ///< d*: greatest distance from the surface
     double nearest_ratio = KiosConfig().nearest_ratio;    ///< least distance where there is room, as a share of d*
     double standoff_ratio = KiosConfig().standoff_ratio;  ///< greatest distance of a stop, as a share of d*
-    int min_hits = 1;                     ///< a cube of this UAV's own map is occupied from so many mapped cells on
+    int min_hits = 1;                     ///< least number of mapped cells in an occupied cube of this UAV's own map
     double speed_mps = 4.0;               ///< assumed speed between stops; chosen
     double stop_s = KiosConfig().stop_s;  ///< assumed duration of a stop, braking included
     /// Most stops divided at once: those nearest to any of the UAVs.

@@ -15,8 +15,8 @@ constexpr std::size_t kMaxClusters = 24;  ///< most clusters in one plan: the ne
 constexpr std::size_t kMaxTargets = 14;   ///< most cubes of a cluster whose visibility is checked; chosen
 /// Viewpoints of a cluster at one height. Chosen; FUEL has 3 rings, and a viewpoint every 15 degrees.
 constexpr int kRings = 2, kDirections = 10;
-constexpr double kHeightM = 3.0;        ///< viewpoints lie at the cluster's height, and so much above and below; chosen
-constexpr double kGoodShare = 0.8;      ///< share of the best coverage that suffices for the refinement; chosen
+constexpr double kHeightM = 3.0;    ///< viewpoints lie at the cluster's height, and this much above and below; chosen
+constexpr double kGoodShare = 0.8;  ///< share of the best coverage that suffices for the refinement; chosen
 constexpr std::size_t kMaxOptions = 5;  ///< most viewpoints of a cluster in the refinement; chosen; FUEL: 15
 constexpr double kViewRangeM = 20.0;    ///< a viewpoint sees cubes within this distance; chosen
 constexpr double kLowM = 2.0;           ///< unknown cubes below this height count as ground; chosen

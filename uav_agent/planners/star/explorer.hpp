@@ -3,8 +3,9 @@
 // weakness.
 // Frame W.   Units: SI.   Threads: one.   Effort: bounded by counts.
 // Source: paper ("Explorer Strategy"), FUEL (frontier information structure, cylindrical sampling, ATSP, refinement).
-// Our choice: unknown cubes behind known surface or at the ground make no frontier, because cubes here are as large as
-// walls are thick; a cube that is still frontier after the LiDAR was near is given up (FUEL's dormant clusters).
+// Our choice: unknown cubes behind known surface or at the ground make no frontier, because the cubes are as large as
+// walls are thick; a cube that is still frontier after several looks of a LiDAR nearby is given up (FUEL's dormant
+// clusters).
 #pragma once
 
 #include <vector>

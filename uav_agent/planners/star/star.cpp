@@ -38,7 +38,7 @@ constexpr double kReachedM = 1.0;          ///< a place nearer than this counts 
 constexpr std::size_t kCandidates = 3;     ///< routes offered in one plan, each with another first place; chosen
 constexpr int kMaxApproaches = 4;          ///< approaches to a box in which no frontier was found; chosen
 constexpr std::size_t kSidesApart = 3;     ///< sides between two approaches, of twelve sides; chosen
-constexpr double kCarefulS = 10.0;  ///< after a blocked route, the flight core searches all paths for so long; chosen
+constexpr double kCarefulS = 10.0;  ///< after a blocked route, the flight core searches all paths for this time; chosen
 
 }  // namespace
 

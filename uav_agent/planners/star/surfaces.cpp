@@ -17,7 +17,7 @@ constexpr double kEnoughShare = 0.85;  ///< the search ends at a view that sees 
 constexpr double kImageShare = 0.95;   ///< surface counts as seen within this share of the camera's half angles; chosen
 constexpr double kNearShare = 0.75;    ///< the second distance to try, as a share of the stand-off; chosen
 constexpr double kSpareM = 0.3;        ///< a viewpoint is at least the clearance plus this from its surface; chosen
-constexpr double kRangeRatio = 1.5;    ///< a view sees at least so far, in units of the stand-off; chosen
+constexpr double kRangeRatio = 1.5;    ///< a view sees at least this far, in units of the stand-off; chosen
 constexpr std::size_t kMostTried = 4;  ///< views() tries at most this many patches, times `max_views`; chosen
 constexpr int kMostFailures = 12;      ///< further failures do not make the wait before a retry longer; chosen
 

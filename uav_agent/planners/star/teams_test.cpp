@@ -20,7 +20,7 @@ FleetMember member(Role role, double x, double y = 0.0) {
   return uav;
 }
 
-TEST(StarTeams, AreBalancedAndTakeTheNearestFirst) {
+TEST(StarTeams, TeamsAreBalancedAndNearestPhotographersJoinFirst) {
   // Three photographers stand beside the first explorer: one of them has to go to the other.
   const std::vector<FleetMember> fleet = {member(Role::explorer, 0.0), member(Role::explorer, 50.0),
                                           member(Role::photographer, 3.0), member(Role::photographer, 1.0),

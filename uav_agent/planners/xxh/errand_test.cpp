@@ -143,7 +143,7 @@ struct AtPost : Asked {
     exchange([&](const PlannerInput& in, PlannerOutput& out) { post.stay(places_W, 4.0, errand, in, out); });
     if (told && !told->empty()) asked = *told;
   }
-  /// @returns whether it sets a goal within so many seconds.
+  /// @returns whether the UAV sets a goal within `s` seconds.
   bool asks_within(double s, const std::vector<Vector3d>& places_W) {
     for (int i = 0; i < static_cast<int>(s / agent.exchange_period_s); ++i) {
       stay(places_W);
@@ -156,7 +156,7 @@ struct AtPost : Asked {
 
 const std::vector<Vector3d> kPosts = {{20.0, 0.0, 1.0}, {20.0, 0.0, 9.0}, {20.0, 0.0, 14.0}};
 
-TEST(XxhPost, IsTheFirstPlaceThatIsFreeAndTheUavStaysThere) {
+TEST(XxhPost, TheUavStaysAtTheFirstFreePostThatItReaches) {
   AtPost uav;
   uav.stay(kPosts);
   ASSERT_EQ(uav.asked.size(), 2U) << "the first place is lower than UAVs may fly";

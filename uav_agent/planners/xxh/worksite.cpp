@@ -8,7 +8,8 @@ namespace skein::agent {
 namespace {
 
 constexpr double kSpareM = 0.4;  ///< distance of stops to structure, beyond the clearance; chosen
-constexpr double kRoomM = 1.0;   ///< stops lie so much farther out, where more is proved, if pictures are sharp; chosen
+constexpr double kRoomM =
+    1.0;  ///< stops lie this much farther out, where more is proved, if pictures are sharp; chosen
 constexpr double kLimitRatio = 1.1;  ///< greatest distance of stops, in units of d*, without a better place; chosen
 
 XxhRegionMap::Config map_config(const XxhConfig& config, const CameraReach& reach, double clearance_m) {

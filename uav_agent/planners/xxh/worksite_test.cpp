@@ -164,7 +164,7 @@ TEST(XxhTalk, MapsOfOtherRegionsAreNotTakenIn) {
   }
 }
 
-TEST(XxhPost, ThePlaceThatSeesMostOfTheExplorersWayComesFirst) {
+TEST(XxhPost, PostsThatSeeMostOfTheExplorersWayComeFirst) {
   const std::vector<OrientedBox> flat = {make_box({0.0, 0.0, 5.0}, {30.0, 30.0, 10.0})};
   const OccupancyMap hits;
   const FreeSpace space(FreeSpace::Config{}, flat, hits);

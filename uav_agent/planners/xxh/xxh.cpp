@@ -35,8 +35,8 @@ namespace {
 
 /// Messages about teams have a byte for the number of a UAV.
 constexpr std::size_t kMostUavsOfXxh = std::numeric_limits<std::uint8_t>::max();
-constexpr int kFruitless = 8;        ///< after so many unreachable choices in a row (chosen), the flight core ...
-constexpr double kGivesWayS = 5.0;   ///< ... has so much time to take the UAV elsewhere; chosen
+constexpr int kFruitless = 8;        ///< after this many unreachable choices in a row (chosen), the flight core ...
+constexpr double kGivesWayS = 5.0;   ///< ... has this time to take the UAV elsewhere; chosen
 constexpr double kSeekFootS = 40.0;  ///< longest time to prove free space at the foot of an upright region; chosen
 /// For this time after a restart in flight, the other UAVs' reports may tell the team's region. Chosen.
 constexpr double kFreshS = 10.0;
