@@ -58,7 +58,7 @@ TEST_F(InboxTest, WakeEndsTheWait) {
   other.join();
 }
 
-TEST_F(InboxTest, WakeBeforeDispatchIsNotForgottenAndNothingIsLostByIt) {
+TEST_F(InboxTest, AWakeBeforeDispatchTakesEffectAndLosesNoPostedWork) {
   Inbox inbox(0);
   int ran = 0;
   inbox.post([&ran] { ++ran; });
@@ -69,7 +69,7 @@ TEST_F(InboxTest, WakeBeforeDispatchIsNotForgottenAndNothingIsLostByIt) {
   EXPECT_TRUE(inbox.dispatch(kPatience));
 }
 
-TEST_F(InboxTest, WorkFromAnotherThreadRunsInTheWaitingOne) {
+TEST_F(InboxTest, WorkFromAnotherThreadRunsInTheWaitingThread) {
   for (const unsigned chaos : {0u, 1u}) {
     Inbox inbox(chaos);
     std::thread::id ran_in;
@@ -103,7 +103,7 @@ TEST_F(InboxTest, SilentSamplesWaitForSamplesThatRing) {
   EXPECT_EQ(got.back(), 3);
 }
 
-TEST_F(InboxTest, NoRingIsLostWhileOthersAreHandled) {
+TEST_F(InboxTest, NoRingIsLostWhileSeveralThreadsWrite) {
   constexpr int kThreads = 4, kRounds = 2'000;
   for (const unsigned chaos : {0u, 1u}) {
     Inbox inbox(chaos);

@@ -1,4 +1,4 @@
-// How a program finds its own address from the names of its peers. Nobody has a name that ends in .invalid (RFC 6761).
+// How a program finds its own address from the names of its peers. No host has a name that ends in .invalid (RFC 6761).
 #include "bus/reach.hpp"
 
 #include <dlfcn.h>
@@ -20,11 +20,13 @@
 
 namespace {
 
-/// Replaces the system's resolver. Unknown names get no answer before so many of them have been asked for.
+/// Replaces the system's resolver for unknown names: each look-up waits until `awaited` look-ups have begun.
 struct Resolver {
   std::mutex mutex;
   std::condition_variable asked_more;
-  int asked = 0, awaited = 0, alone = 0;
+  int asked = 0;  ///< look-ups of unknown names that have begun
+  int awaited = 0;
+  int alone = 0;  ///< look-ups that waited in vain
 
   bool wait_for_all() {
     std::unique_lock lock(mutex);
@@ -49,8 +51,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// An address in the default network that is not ours: packets there leave from the own address.
-constexpr const char* kAnothers = "192.0.2.77";  // of a network for examples
+/// An address that no host has (it is reserved for examples): packets to it take the default route.
+constexpr const char* kAnothers = "192.0.2.77";
 
 in_addr address_of(const std::string& text) { return look_up(text).value(); }
 
@@ -104,7 +106,7 @@ TEST_F(ReachTest, AKnownPeerIsUsedAndAnUnknownOneIsNamed) {
   }
 }
 
-// The earlier answer is one that the resolver could never give.
+// The earlier answer differs from the one that the resolver would give, so a second look-up would change the result.
 TEST_F(ReachTest, AnAddressThatWasLookedUpBeforeIsNotLookedUpAgain) {
   const Addresses asked = {{"localhost", address_of(kAnothers)}};
   const auto source = source_towards(address_of(kAnothers));

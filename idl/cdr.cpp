@@ -21,7 +21,7 @@ std::vector<std::uint8_t> encode(std::size_t body_size, void (*body)(Cdr&, const
 }
 
 bool decode(std::span<const std::uint8_t> payload, void (*body)(Cdr&, void*), void* message) {
-  // 0x0000 is CDR_BE, 0x0001 CDR_LE; parameter lists and XCDR2 are nothing that Skein's types use.
+  // 0x0000 is CDR_BE, 0x0001 CDR_LE. Skein's types use neither parameter lists nor XCDR2.
   if (payload.size() < kHeaderSize || payload[0] != 0 || payload[1] > 1) return false;
   try {
     // Fast-CDR takes a mutable buffer for reading too, but does not write to it.

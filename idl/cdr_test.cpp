@@ -37,7 +37,7 @@ class Layout {
     bytes_.insert(bytes_.end(), count, 0);
     return *this;
   }
-  /// @param body_offset where the next byte must stand, counted from behind the encapsulation header
+  /// @param body_offset where the next byte must be, counted from the end of the encapsulation header
   Layout& at(std::size_t body_offset) {
     EXPECT_EQ(bytes_.size() - 4, body_offset);
     return *this;
@@ -125,13 +125,13 @@ TEST(Cdr, BigEndianIsUnderstood) {
   EXPECT_EQ(message.nanosec(), 3u);
 }
 
-TEST(Cdr, LengthIsAMultipleOfFourWithZerosBehind) {
+TEST(Cdr, PayloadsArePaddedWithZerosToAMultipleOfFour) {
   msg::String message;
   message.data("ab");
   EXPECT_EQ(encode(message), (Bytes{0, 1, 0, 0, 3, 0, 0, 0, 'a', 'b', 0, 0}));
 }
 
-TEST(Cdr, NamesAreThoseOfRos) {
+TEST(Cdr, TypeNamesAreThoseOfRos) {
   EXPECT_EQ(type_name<msg::Odometry>(), "nav_msgs::msg::dds_::Odometry_");
   EXPECT_EQ(type_name<msg::Step>(), "skein_msgs::msg::dds_::Step_");
 }

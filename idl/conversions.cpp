@@ -162,7 +162,7 @@ GimbalState from_gimbal(const msg::TwistStamped& twist) {
 
 msg::JointState to_lidar_servo(const LidarServo& servo) {
   msg::JointState joints;
-  joints.header(to_header(servo.tick, ""));  // an angle is of no frame
+  joints.header(to_header(servo.tick, ""));  // an angle belongs to no frame
   joints.name().emplace_back(kLidarServoJoint);
   joints.position().push_back(servo.angle);
   joints.velocity().push_back(servo.rate);
@@ -263,7 +263,7 @@ std::vector<OrientedBox> from_box_vertices(const msg::PointCloud& cloud) {
     box.center = 0.5 * (p0 + p7);
     for (int axis = 0; axis < 3; ++axis) box.size[axis] = edges[axis].norm();
     if (box.size.minCoeff() > 0.0) {
-      // Single precision vertices: square the axes up again.
+      // The vertices are in single precision, so the edges are not exactly at right angles: correct the axes.
       const Vector3d x = edges[0].normalized();
       const Vector3d y = (edges[1] - x * x.dot(edges[1])).normalized();
       Vector3d z = x.cross(y);

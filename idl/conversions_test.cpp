@@ -20,7 +20,7 @@ Message travelled(const Message& message) {
   return received;
 }
 
-TEST(Conversions, OdometryKeepsPoseBitsAndTurnsTheTwist) {
+TEST(Conversions, OdometryKeepsThePoseExactlyAndHasTheTwistInTheBodyFrame) {
   RandomStream random(1, "odometry", 0);
   for (int i = 0; i < 100; ++i) {
     RigidBodyState state;
@@ -63,7 +63,7 @@ TEST(Conversions, ATrajectoryCommandComesBack) {
   EXPECT_FALSE(from_trajectory(msg::MultiDOFJointTrajectory{}));
 }
 
-TEST(Conversions, TheServosJointComesBackAndNoOther) {
+TEST(Conversions, OnlyTheJointOfTheLidarServoIsRead) {
   const msg::JointState joints = travelled(to_lidar_servo({1240, -0.7, 0.785}));
   EXPECT_EQ(joints.name(), std::vector<std::string>{"lidar_servo"});
   EXPECT_TRUE(joints.effort().empty());
@@ -100,7 +100,7 @@ TEST(Conversions, GimbalModesAreSignsOfLinearX) {
   EXPECT_EQ(from_gimbal_command(hardly_negative).mode, GimbalMode::freeze);
 }
 
-TEST(Conversions, BoxesSurviveTheirVertices) {
+TEST(Conversions, BoxesComeBackFromTheirVertices) {
   RandomStream random(3, "boxes", 0);
   std::vector<OrientedBox> boxes;
   for (int i = 0; i < 15; ++i) {
@@ -134,7 +134,7 @@ TEST(Conversions, CloudsComeBackAndOtherLayoutsAreRefused) {
 }
 
 // Names, order and meaning of the channels are CARIC's: programs that show a score find them by name.
-TEST(Conversions, TheScoreIsAPointCloudWithFourChannelsAndOneMoreForTheJudge) {
+TEST(Conversions, TheScoreCloudHasFourChannelsAndOnRequestTheIndices) {
   RandomStream random(4, "score", 0);
   std::vector<ScoredPoint> points;
   for (std::uint32_t i = 0; i < 50; ++i) {

@@ -1,4 +1,4 @@
-// Types of diagnostic_msgs, as type_names.hpp has all others: apart, since one program alone writes them.
+// Types of diagnostic_msgs. They are not in type_names.hpp, because only one program writes them.
 #pragma once
 
 #include "idl/diagnostic_msgs.h"

@@ -11,13 +11,13 @@
 
 namespace skein {
 
-/// All types of the table; the first stands for the comma that the table does not leave out.
+/// All types of the table. msg::Time precedes them, because the table begins with a comma.
 #define SKEIN_COMMA_TYPE(package, name) , msg::name
 using AllMessageTypes = testing::Types<msg::Time SKEIN_ALL_TYPES(SKEIN_COMMA_TYPE)>;
 #undef SKEIN_COMMA_TYPE
 
-/// A message in which each sequence has an element: what the bytes 01 00 00 00 01 00 00 00 ... say, since all
-/// lengths stand at multiples of four.
+/// A message in which each sequence has one element. It is decoded from the bytes 01 00 00 00 01 00 00 00 ...: CDR puts
+/// lengths at multiples of four, so each length is read as 1.
 template <class T>
 T filled_message() {
   std::vector<std::uint8_t> ones(4096);

@@ -1,4 +1,4 @@
-// Converts the commands for UAVs that a viewer flies by hand, from and to messages.   Pure; safe from any thread.
+// Converts the commands for UAVs that a viewer flies by hand to messages and back.   Pure; safe from any thread.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace skein {
 
-/// @param tick  of the step from which on it is wanted.
+/// @param tick  of the step from which on the command applies.
 msg::HandCommand to_hand_command(Tick tick, const HandCommand& command);
-/// nullopt where a number is not finite.
+/// nullopt if a number is not finite.
 std::optional<HandCommand> from_hand_command(const msg::HandCommand& message);
 
 }  // namespace skein

@@ -32,8 +32,7 @@ TEST(MessageDefinition, KnowsArraysSequencesAndLongNumbers) {
   EXPECT_NE(message_definition(type_name<msg::Step>()).text.find("uint64 run\n"), std::string::npos);
 }
 
-// The definition describes each type that a type contains, once.
-TEST(MessageDefinition, OfEachTypeIsComplete) {
+TEST(MessageDefinition, DescribesEachContainedTypeExactlyOnce) {
   const auto check = [](const std::string& wire_type) {
     const MessageDefinition& definition = message_definition(wire_type);
     EXPECT_TRUE(std::regex_match(definition.name, std::regex(R"(\w+/msg/\w+)"))) << definition.name;

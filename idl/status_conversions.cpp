@@ -8,7 +8,7 @@
 namespace skein {
 namespace {
 
-// Row-major 6 x 6, order x, y, z, rotation about X, Y, Z: where the diagonal is.
+// Indices of the diagonal in a row-major 6 x 6 matrix with the order x, y, z, rotation about X, Y, Z.
 constexpr std::array<std::size_t, 3> kPositionVariance = {0, 7, 14};
 constexpr std::size_t kYawVariance = 35;
 

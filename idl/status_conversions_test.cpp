@@ -24,7 +24,7 @@ TEST(StatusConversions, TheOdometryCarriesItsUncertainty) {
   EXPECT_EQ(uncertainty_from_odometry(odd).position_m.head<2>().norm(), 0.0);
 }
 
-TEST(StatusConversions, ABatteryIsAsRos2HasIt) {
+TEST(StatusConversions, ABatteryMessageFollowsRos2sConventions) {
   const msg::BatteryState message = to_battery(40, {0.5, 4.0, 22.2, 11.0}, 6);
   EXPECT_FLOAT_EQ(message.charge(), 2.0F);
   EXPECT_FLOAT_EQ(message.current(), -11.0F) << "negative while it discharges";
@@ -44,7 +44,7 @@ TEST(StatusConversions, WindIsAVectorOfFiniteNumbers) {
   EXPECT_FALSE(from_wind(to_wind(40, {std::numeric_limits<double>::infinity(), 0.0, 0.0})));
 }
 
-TEST(StatusConversions, LinksComeBackAndOnesWithoutANumberAreLeftOut) {
+TEST(StatusConversions, LinksComeBackExceptThoseWithANumberThatIsNotFinite) {
   const LinkQualities links = {{kStationNode, {-61.5, 1.5e6}}, {Node{3}, {-80.25, 162500.0}}};
   EXPECT_EQ(from_radio_links(to_radio_links(40, links)), links);
   EXPECT_TRUE(from_radio_links(to_radio_links(40, {})).empty());

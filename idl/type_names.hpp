@@ -1,5 +1,5 @@
 // The one table of all message types: C++ type, short name, name on the wire (ROS 2's own).
-//   skein::msg::Odometry is nav_msgs::msg::dds_::Odometry_, and type_name<msg::Odometry>() is that as a string.
+//   skein::msg::Odometry is nav_msgs::msg::dds_::Odometry_, and type_name<msg::Odometry>() returns that name.
 // A new type in an .idl file gets a line here.
 #pragma once
 

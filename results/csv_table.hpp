@@ -30,7 +30,7 @@ class CsvTable {
   /// nullopt: the cell is empty.
   std::optional<std::uint64_t> count_if_any(const std::string& column) const;
 
-  /// @throws std::runtime_error, with file and line of this row, and `what` is wrong with it.
+  /// @throws std::runtime_error: the file, the line of this row, and `what`, which says what is wrong.
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

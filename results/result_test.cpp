@@ -152,7 +152,7 @@ TEST_F(RunResult, SwitchesThatDifferFromThePresetAreReported) {
   EXPECT_EQ(schema_errors(result), std::vector<std::string>{});
 }
 
-TEST_F(RunResult, TheEstimateMayHaveAPlanWithItsFlight) {
+TEST_F(RunResult, APlanInTheEstimateMustHaveTheScoreOfItsFlight) {
   Json result = merged();
   result["attainable"] = {{"points", 9}, {"score", 8.5}, {"plan", {{"points", 7}, {"score", 6.0}}}};
   EXPECT_EQ(schema_errors(result).size(), 1u) << "the score of the plan's flight is missing";

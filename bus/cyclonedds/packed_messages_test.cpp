@@ -36,14 +36,14 @@ void add(Packed& packed, int to, const Bytes& bytes, RandomStream& random, const
   packed.add(to, std::span<const iovec>(parts), send);
 }
 
-TEST(PackedMessages, AllArriveOnceInOrderAndInAsFewDatagramsAsPossible) {
+TEST(PackedMessages, AllMessagesArriveOnceInOrderAndInAsFewDatagramsAsPossible) {
   for (std::uint64_t world = 0; world < 60; ++world) {
     RandomStream random(world, "packed", 0);
     const std::size_t largest = 300;
     Packed packed(largest);
     std::map<int, std::vector<Bytes>> sent, arrived;
     std::map<int, std::size_t> room;       // bytes of the datagram that is being filled
-    std::size_t datagrams = 0, least = 0;  // sent; the least possible number
+    std::size_t datagrams = 0, least = 0;  // number of sent datagrams, and the smallest possible number
     std::map<int, std::uint8_t> former;    // participant of the last message to each destination
     const auto send = [&](int to, const Bytes& bytes) {
       ++datagrams;

@@ -17,7 +17,7 @@ GUID_t endpoint(std::uint8_t participant, std::uint8_t entity) {
 
 const GuidPrefix_t kOwn = endpoint(9, 0).guidPrefix;
 
-TEST(Matches, IncludesTheWriterOfASampleBeforeItsMatchIsReported) {
+TEST(Matches, AWriterCountsAsMatchedFromItsFirstSampleOn) {
   Matches matches(kOwn);
   const GUID_t writer = endpoint(1, 1);
   matches.note_sample(writer);
@@ -48,7 +48,7 @@ TEST(Matches, EndpointsOfTheOwnParticipantDoNotCount) {
 }
 
 // Matches of one endpoint begin and end alternately. Its samples may come at any time, even shortly before the match.
-TEST(Matches, DrawnOrdersEndWithTheEndpointsThatAreThere) {
+TEST(Matches, ExactlyThePresentEndpointsAreMatchedAfterAnyOrderOfEvents) {
   for (unsigned seed = 0; seed < 500; ++seed) {
     std::mt19937 random(seed);
     Matches matches(kOwn);
@@ -62,9 +62,9 @@ TEST(Matches, DrawnOrdersEndWithTheEndpointsThatAreThere) {
       } else {
         known.insert(writer);
         bool& is_there = there[writer];
-        const bool told = is_there && random() % 2 == 0;
-        is_there = !told;
-        told ? matches.end(writer) : matches.begin(writer);
+        const bool leaves = is_there && random() % 2 == 0;
+        is_there = !leaves;
+        leaves ? matches.end(writer) : matches.begin(writer);
       }
       std::vector<ParticipantId> expected;
       for (const auto& [endpoint, is_there] : there) {

@@ -25,7 +25,7 @@ class Lonely final : public ClientNode {
   LockstepClient& client() override { return client_; }
   void think() override {}
   bool serve() override {
-    if (++looks_ == 200) stop_.stop();  // of 2 ms each
+    if (++looks_ == 200) stop_.stop();  // a look takes 2 ms
     return true;
   }
   bool answered_last() const override { return false; }
@@ -98,7 +98,7 @@ TEST(ClientNode, AMemberThatNeverHadAnIdleTurnFindsThatTheServerHasGone) {
       << "the node ends without an error, because it was not a member yet";
 }
 
-TEST(ClientNode, AnInvitationMayArriveBeforeItsServerIsFound) {
+TEST(ClientNode, ANodeThatIsInvitedBeforeItHasFoundTheServerKeepsWaiting) {
   EXPECT_EQ(end_without_idle_turns(false), std::nullopt) << "a server that has not been found yet cannot have gone";
 }
 

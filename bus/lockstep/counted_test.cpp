@@ -98,7 +98,7 @@ class Both {
   }
   void begin_anew(const std::string& topic, RandomStream& random) {
     queues.remove_topic(topic);
-    queues.set_base(topic, 7, 99);  // without effect, because nobody listens to this source
+    queues.set_base(topic, 7, 99);  // without effect, because the topic has been removed
     add(topic);
     std::erase_if(oracle.expected, [&](const Expected& e) { return e.topic == topic; });
     std::erase_if(oracle.lanes, [&](const auto& lane) { return lane.first.first == topic; });

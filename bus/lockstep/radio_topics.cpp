@@ -66,7 +66,7 @@ void RadioTopics::begin_step() {
   router_ = client_.router();
   const auto ask_anew = [this](auto& registrations) {
     for (auto& [topic, registration] : registrations) {
-      // A request that was refused could win now against those that made the former router refuse it.
+      // Not repeated: the new router could open a refused request in place of the one to which it lost before.
       if (!registration.status.refusal.empty()) continue;
       registration.status = {};
       ask(registration.request);

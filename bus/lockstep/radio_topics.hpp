@@ -26,13 +26,13 @@ class RadioTopics {
   };
 
   /// Asks to send on a topic. Call it while thinking; write() works once the topic is open, not before the next step.
-  /// Until then it may be called again, also with another type, for example after a refusal.
+  /// Until then send() may be called again, also with another type, for example after a refusal.
   /// @param topic "/x" @param type "std_msgs/msg/String" @param targets  nodes, or {"all"}
   /// @throws InputError when topic or type is malformed
   void send(const std::string& topic, const std::string& type, const std::vector<std::string>& targets);
-  /// Asks to receive messages to this node on a topic. Call it while thinking. It opens as soon as a node may send.
-  /// Until then it may be called again, also with another type, for example after a refusal; later calls only replace
-  /// the handler.
+  /// Asks to receive messages to this node on a topic. Call it while thinking. The topic opens as soon as a node may
+  /// send on it. Until then listen() may be called again, also with another type, for example after a refusal; later
+  /// calls only replace the handler.
   /// @param handler  gets each sample, as with LockstepClient::read()
   /// @throws InputError when topic or type is malformed
   void listen(const std::string& topic, const std::string& type, CountedQueues::Handler handler);

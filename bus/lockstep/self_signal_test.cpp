@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kNotPermitted = 77;
 
-/// Runs `body` in a process of its own, in a new PID namespace where it is the first, or as any other.
+/// Runs `body` in a new process: as the first process of a new PID namespace if `first`, else as an ordinary process.
 /// @returns its exit code, or 128 + its signal.
 int run_as(bool first, const std::function<void()>& body) {
   const pid_t parent = ::fork();

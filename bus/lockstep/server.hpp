@@ -148,7 +148,7 @@ class LockstepServer {
     bool answered = false;
     bool unheard = false;                       ///< its lease expired during a step; it may be back since
     std::vector<CountedQueues::Expected> sent;  ///< by its last Done
-    std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< asked to join while the place was taken
+    std::optional<std::pair<ParticipantId, msg::Ready>> next;  ///< a program that asked to join while it was taken
   };
 
   std::size_t open_door(DomainIndex domain, std::string_view member);

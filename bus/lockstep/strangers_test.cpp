@@ -35,7 +35,7 @@ TEST(Strangers, AProgramThatJoinsInTimeIsNotAStranger) {
   EXPECT_EQ(describe(notices[0]),
             "ada: samples on /ada/command/trajectory are ignored: the sender does not take part in the lock-step; see "
             "docs/ros2.md");
-  EXPECT_EQ(strangers.unheard("ada"), 1U);  // the member's early one is not counted
+  EXPECT_EQ(strangers.unheard("ada"), 1U);  // the sample that the member sent before it joined is not counted
 }
 
 TEST(Strangers, AFloodOfWritersIsBounded) {
