@@ -1,6 +1,6 @@
-// The rows of a run's tables, except digests.csv (diff.hpp) and tracking.csv (tracking_table.hpp). This is the one
-// place where readers name columns and go on or stop at an invalid row. A member whose column does not exist in a table
-// of an earlier version keeps its default, if it has one here.
+// The rows of a run's tables, except digests.csv (diff.hpp) and tracking.csv (tracking_table.hpp). Only this code names
+// columns, and decides whether an invalid row is an error or the end of its table. A member whose column does not exist
+// in a table of an earlier version keeps its default, if it has one here.
 // Frame W (ENU), metres, metres per second, simulated seconds and steps. docs/results.md describes the columns.
 // Threads: any.
 #pragma once

@@ -24,14 +24,14 @@ struct PointRecord {
   std::vector<CaptureRow> captures;  ///< of this point, in any order
   /// q of the best picture that would have been taken if UAVs had been where they believed to be, and without wind.
   float if_exact = 0.0F, if_calm = 0.0F;
-  /// The best picture of a point that none counts for: only its qualities. nullopt: not known, or the quality was never
-  /// defined.
+  /// For a point without a picture that counts: the qualities of its best picture. nullopt: not known, or the quality
+  /// was never defined.
   std::optional<CaptureRow> poor = {};
 };
 
 /// What batteries did in the run.
 struct BatteryEffects {
-  bool no_uav_could_fly = false;  ///< at the end of the mission, all UAVs that had not collided
+  bool no_uav_could_fly = false;  ///< at the end of the mission, all UAVs that had not collided were grounded
   std::set<std::string> fell;     ///< UAVs that collided because their battery was empty
 };
 

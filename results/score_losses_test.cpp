@@ -103,7 +103,7 @@ bool is_true(const PointRecord& point, const BatteryEffects& batteries, LossCaus
   return false;
 }
 
-TEST(ScoreLosses, AllLossesTogetherAreTheDifference) {
+TEST(ScoreLosses, TheLossesAddUpToEstimateMinusScore) {
   std::map<LossCause, std::size_t> met;
   for (std::uint64_t key = 0; key < 40; ++key) {
     RandomStream random(key, "score_losses_test", 0);
@@ -185,8 +185,7 @@ TEST(ScoreLosses, TheWorstPartOfTheBestPictureIsToBlame) {
     return loss.cause;
   };
   EXPECT_EQ(cause(capture(0.7, 0.9, 0.8, true)), LossCause::distance);
-  // If several causes are equal, the first one counts that a different flight could avoid: nearer, then squarer, then
-  // slower.
+  // Of equally bad parts, the first in this order counts: distance, tilt, blur.
   EXPECT_EQ(cause(capture(0.75, 0.75, 0.75, true)), LossCause::distance);
   EXPECT_EQ(cause(capture(1.0, 0.75, 0.75, true)), LossCause::tilt);
   EXPECT_EQ(cause(capture(0.75, 1.0, 0.75, true)), LossCause::distance);
@@ -201,7 +200,7 @@ TEST(ScoreLosses, ABetterPictureThatWasLostIsNamed) {
   point.score = scored(point.captures);
   EXPECT_EQ(loss_of(point).cause, LossCause::not_delivered);
   EXPECT_EQ(loss_of(point).best->q_distance, 0.8);
-  // The UAV was lost, and its pictures with it, whether they were delivered or not.
+  // The UAV collided, so its pictures are void, whether they were delivered or not.
   for (const bool delivered : {false, true}) {
     point.captures[1] = capture(0.8, 1.0, 1.0, delivered, true);
     EXPECT_EQ(loss_of(point).cause, LossCause::voided);

@@ -1,4 +1,4 @@
-// Signals of captures: which were taken, delivered and acknowledged, and whose work they were.
+// Signals of captures: which ones were taken, delivered and acknowledged, and which work was left undone or taken over.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -12,8 +12,8 @@
 namespace skein::signals {
 namespace {
 
-/// Allowance for the flight of a UAV whose program comes back: from its position then to its start, and from there to
-/// another place than at first.
+/// Extra time for the flight of a UAV whose program has come back: unlike in the run without faults, the UAV is not at
+/// its start, and it may begin its work at another place.
 constexpr double kWayToWork_s = 40.0;
 
 /// A capture whose acknowledgement by the station has reached its UAV.

@@ -11,7 +11,7 @@
 namespace skein::signals {
 namespace {
 
-/// True from `step` on, or false.
+/// A value that changes at given steps; false before the first change.
 class Switch {
  public:
   void set(std::uint64_t step, bool on) { changes_[step] = on; }
@@ -40,7 +40,7 @@ FaultPlan as_flown(FaultPlan plan, const Json& result, const Scenario& scenario)
   return plan;
 }
 
-/// A run as the derivation looks at it.
+/// The events of a run, by step, as the derivation needs them.
 class Timeline {
  public:
   Timeline(const results::RunRecord& run, const Scenario& scenario, const FaultPlan& plan)
@@ -79,7 +79,7 @@ class Timeline {
     const auto found = released_.find(capture);
     return found != released_.end() && found->second < step;
   }
-  /// Whether an absent member only stands still.
+  /// Whether a fault pauses this absent member.
   bool paused(const std::string& member, std::uint64_t step) const {
     const auto tick = static_cast<Tick>(step) * scenario_.exchange_ticks();
     return std::any_of(plan_.faults.begin(), plan_.faults.end(), [&](const Fault& fault) {
@@ -87,7 +87,7 @@ class Timeline {
       return pause != nullptr && pause->member == member && fault.active(tick);
     });
   }
-  /// When what this UAV sends in this step is with the station; none: it is lost.
+  /// The step in which a message that this UAV sends in step `sent` reaches the station; nullopt: it is lost.
   std::optional<std::uint64_t> arrival(const std::string& uav, std::uint64_t sent) const {
     if (!present(programs::kCommRouter, sent) || is_cut(uav, sent)) return std::nullopt;
     std::optional<std::uint64_t> arrives = sent + 1;
@@ -98,7 +98,7 @@ class Timeline {
     for (std::uint64_t k = sent + 1; k < *arrives; ++k) {
       if (!present(programs::kCommRouter, k)) return std::nullopt;
     }
-    // Nothing is handed on to a program that takes no part, nor kept for one that is about to come back.
+    // The router hands on nothing to a program that is not a member, and keeps nothing until it comes back.
     const bool received = present(programs::kCommRouter, *arrives) && present(programs::kStation, *arrives - 1) &&
                           present(programs::kStation, *arrives);
     if (*arrives > last_step_ || !received) return std::nullopt;

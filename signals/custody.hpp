@@ -1,5 +1,5 @@
-// The fate of capture reports, derived anew from what the server saw: its ledger, its links, who took part when. The
-// signal `custody_differences` compares the station's own account with it. Pure.
+// Derives when each capture report reaches the station, only from what the server recorded: ledger, links, members. The
+// signal `custody_differences` compares the station's own account with this. Pure.
 #pragma once
 
 #include <cstdint>

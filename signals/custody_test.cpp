@@ -100,7 +100,7 @@ TEST_F(CustodyTest, AKilledRouterLosesTheMessagesThatWaitInIt) {
   EXPECT_EQ(derived(), first(51));
 }
 
-TEST_F(CustodyTest, ARestartedUavSendsAtOnceAndAResumedOneWhenItIsTime) {
+TEST_F(CustodyTest, ARestartedAgentSendsAtOnceAndAResumedOneTenStepsAfterItsLastAttempt) {
   captured(20, 0);
   link(0, 300);
   run_.messages = {{20, "alpha", std::nullopt}};

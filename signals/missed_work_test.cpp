@@ -25,7 +25,7 @@ class MissedWork : public RunSignalsTest {
   static Json fault(int began_step, const Json& ended_step) {
     return {{"kind", "link"}, {"began_step", began_step}, {"ended_step", ended_step}};
   }
-  /// At a time.
+  /// The value of the signal at a time.
   double missed_at(double time_s, const std::string& uav = "a") {
     return number("missed(" + uav + ")", &undisturbed_).at(static_cast<std::size_t>(std::llround(time_s / 0.05)));
   }
@@ -48,7 +48,7 @@ class MissedWork : public RunSignalsTest {
   results::RunRecord undisturbed_;
 };
 
-TEST_F(MissedWork, IsTheWorkOfAnEqualTimeFromTheStartLessTheWayBack) {
+TEST_F(MissedWork, CountsThePointsOfTheUndisturbedFlightUpToTheSameTimeMinusTheWayBack) {
   EXPECT_EQ(missed_at(12.0), 0.0);
   EXPECT_EQ(missed_at(12.0 + 40.0 + 4.9), 0.0);
   EXPECT_EQ(missed_at(12.0 + 40.0 + 5.0), 1.0);
@@ -83,7 +83,7 @@ TEST_F(MissedWork, BeginsAnewWhenTheProgramIsAwayAgain) {
   EXPECT_EQ(missed_at(91.0 + 40.0 + 17.0), 3.0);
 }
 
-TEST_F(MissedWork, IsUnknownForAnAbsentUavAndWhileAFaultLasts) {
+TEST_F(MissedWork, IsZeroForAnAbsentUavAndWhileAFaultLasts) {
   run_.result["faults"].push_back(fault(300, nullptr));
   EXPECT_EQ(missed_at(80.0), 0.0);
   run_.result["faults"].erase(2);
@@ -120,7 +120,7 @@ TEST_F(MissedWork, DecidesWhetherAUavPhotographsAgain) {
   EXPECT_EQ(outcome("photographs_again"), Outcome::vacuous);
 }
 
-// The same run, asked for a photograph within a deadline.
+// The property `works_again` demands a photograph before a deadline.
 TEST_F(MissedWork, WorksAgainSaysNothingWhereNoUavWasAway) {
   fly(2.0);
   EXPECT_EQ(outcome("works_again"), Outcome::fails);
