@@ -16,8 +16,8 @@ std::size_t exchanges_of(const results::RunRecord& run, const Scenario& scenario
   return static_cast<std::size_t>(std::llround(end_s / scenario.exchange_period_s)) + 1;
 }
 
-/// Whether a fault kills a UAV's program for good. False for the station and the router: without them, what must hold
-/// after the faults cannot.
+/// Whether a fault kills a UAV's program for good. False for the station and the router: without them, the fleet cannot
+/// do what properties demand after the faults.
 bool is_death_for_good(const Json& fault, const Scenario& scenario) {
   if (value_or(fault, "kind", "") != "kill" || value_or(fault, "until_s", nullptr).is_number()) return false;
   const Json target = value_or(fault, "target", nullptr);
@@ -209,9 +209,9 @@ FolderSignals::Values FolderSignals::separation(const SignalUse& signal) {
   return least;
 }
 
-// ---- who takes part ---------------------------------------------------------------------------------------------
+// ---- members, links, faults -------------------------------------------------------------------------------------
 
-/// 1 from an event `on` of these two until an event `off`; else 0.
+/// 1 from each event `on` with this subject and object until their next event `off`; otherwise 0.
 FolderSignals::Values FolderSignals::on_off(const std::string& on, const std::string& off, const std::string& subject,
                                             const std::string& object) const {
   Values values = constant(0.0);

@@ -1,8 +1,8 @@
-// The signals of a run. Everything about signals is in this folder, but for the table that fault files need, too:
+// The signals of a run. All code about signals is in this folder, except their table, which fault files need, too:
 //
 //   core/expressions/signal_table.cpp  the signals that exist, with arguments, unit and meaning (docs/properties.md)
-//   live_signals.cpp                   values during the run, as far as the server knows them; it shows the world to
-//                                      them by sim_server/simulated_world.hpp, and begins faults by them
+//   live_signals.cpp                   values during the run, of the signals that the server knows; they see the world
+//                                      through sim_server/simulated_world.hpp, and faults may wait for them
 //   run_signals.cpp                    values in a finished run, computed from its folder, each when it is first
 //                                      requested; those of captures are in capture_signals.cpp, those of radio messages
 //                                      in message_signals.cpp

@@ -45,7 +45,7 @@ TEST_F(RunSignalsTest, SignalsOfPositionsFollowTheTableOfPoses) {
   }());
 }
 
-TEST_F(RunSignalsTest, TheRunWithoutFaultsMayBeShorterOrLonger) {
+TEST_F(RunSignalsTest, TheUndisturbedDistanceIsKnownIfThatRunIsShorterOrLonger) {
   for (const double end_s : {1.0, 2.0, 3.0}) {
     results::RunRecord undisturbed = run_;
     for (std::size_t tenth = 0; 0.1 * static_cast<double>(tenth) < end_s + 0.05; ++tenth) {
@@ -169,7 +169,7 @@ TEST_F(RunSignalsTest, ADeliveryThatDoesNotFollowFromTheRecordIsADifference) {
   EXPECT_THROW(number("custody_differences"), InputError) << "the faults are not known";
 }
 
-TEST_F(RunSignalsTest, ACollisionIsKnownWhereverItsRowIs) {
+TEST_F(RunSignalsTest, ACollisionAfterTheLastRowOfTheTableEndsAlive) {
   run_.poses = {{0.0, "a", {0, 0, 1}}, {1.9, "a", {1, 0, 1}}};
   run_.result["collisions"] = Json::array({{{"uav", "a"}, {"with", "ground"}, {"time_s", 1.96}}});
   EXPECT_EQ(values("alive(a)").at(39), 1.0);
@@ -177,8 +177,8 @@ TEST_F(RunSignalsTest, ACollisionIsKnownWhereverItsRowIs) {
   EXPECT_EQ(values("alive(b)").at(40), 1.0);
 }
 
-// A path is a link to the station, and later one back. The test searches through all pairs of exchanges.
-TEST_F(RunSignalsTest, APathIsALinkThereAndThenOneBack) {
+// The test searches through all pairs of exchanges.
+TEST_F(RunSignalsTest, APathIsALinkToTheStationAndThenOneBack) {
   std::mt19937_64 random(6);
   int with_path = 0, without = 0;
   for (int round = 0; round < 300; ++round) {
@@ -246,7 +246,7 @@ struct Sent {
 };
 struct Arrives {
   std::string source, target, topic;
-  std::uint64_t number = 0, step = 0;  ///< that in which the router hands it on
+  std::uint64_t number = 0, step = 0;  ///< step: in which the router hands the message on
 };
 
 void write_recording(const std::filesystem::path& dir, const std::vector<Sent>& sent,

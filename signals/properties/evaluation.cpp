@@ -293,8 +293,8 @@ Verdict worst_of(const std::vector<Verdict>& verdicts) {
     return std::pair(kind, verdict.margin);
   };
   Verdict worst = *std::ranges::min_element(verdicts, {}, rank);
-  if (worst.outcome == Outcome::vacuous && !worst.is_unclear && verdicts.size() > 1)
-    worst.bound.clear();  // all are vacuous
+  const bool all_are_vacuous = worst.outcome == Outcome::vacuous && !worst.is_unclear;
+  if (all_are_vacuous && verdicts.size() > 1) worst.bound.clear();
   return worst;
 }
 

@@ -101,7 +101,7 @@ TEST(PropertyParser, AnIntervalNeedsAnExchange) {
   EXPECT_EQ(parse("always held < 3 from 5.05 s to 5.06 s").size(), 1U);
 }
 
-TEST(PropertyParser, AVariableIsNotCalledAll) {
+TEST(PropertyParser, AVariableMustNotBeCalledAll) {
   // held(all) is the sum over the fleet, whatever a variable of this name stands for.
   refused("for all in uavs, always held(all) < 3", 4, "'all' means something else already");
 }
@@ -122,7 +122,7 @@ TEST(PropertyParser, VariablesHaveABoundedNumberOfChoices) {
   }
 }
 
-TEST(PropertyParser, ASetMayBeEmpty) {
+TEST(PropertyParser, ASetWithoutUavsIsRefused) {
   Scenario scenario = parser_fleet();
   scenario.fleet.erase(scenario.fleet.begin());
   EXPECT_THROW(parse_property("it", "for u in explorers, always held(u) < 3", scenario), ExpressionError);
