@@ -1,6 +1,6 @@
 // Replays a recorded run: the simulator uses the recorded samples of the programs instead of their present ones, and
-// compares the two. So a single agent can repeat its decisions without the rest of its fleet, or a fleet can be brought
-// to the moment from which something is to change. Not thread-safe.
+// compares the two. So a single agent can repeat its decisions without the rest of its fleet, or a fleet can repeat a
+// run up to the time at which something changes. Not thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -62,9 +62,9 @@ class Replay final : public bus::Tap {
   bus::Ear ear(const std::string& node, const bus::TopicSpec& topic) override { return recorder_.ear(node, topic); }
   bus::OnSample taken(const std::string& node, const bus::TopicSpec& topic, bus::OnSample handler) override;
 
-  /// Must be called before the samples of a step are processed.
+  /// Call it before the samples of a step are processed.
   void begin_step(Tick tick) { tick_ = tick; }
-  /// Must be called after that: passes on the recorded samples of this step, and compares.
+  /// Call it after they are processed: passes on the recorded samples of this step, and compares them with the present.
   void end_step();
   /// Whether the recorded samples would still count, but the recording has ended.
   bool is_over(Tick tick) const { return options_.replays(tick) && tick >= run_.end(); }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr Tick kStep = 20;
 
-/// A radio message of a UAV in a step, on one of two topics.
+/// A message of a UAV in a step, on one of two topics: a gimbal command, or a camera trigger.
 struct Word {
   std::string uav;
   bool gimbal = false;
@@ -86,7 +86,7 @@ class ReplayTest : public mcap::McapFiles {
   }
 };
 
-TEST_F(ReplayTest, PassesOnTheRecordedWordsWhateverTheUavsSayNow) {
+TEST_F(ReplayTest, PassesOnTheRecordedMessagesWhateverTheUavsSendNow) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     std::filesystem::remove(folder_ / run_folder::recording_part(programs::kSimServer, 0));
     const Speech then = random_speech(seed, 30), now = random_speech(seed + 100, 30);
@@ -120,7 +120,7 @@ TEST_F(ReplayTest, ReportsTheFirstDifferenceOfTheChosenUav) {
   }
 }
 
-TEST_F(ReplayTest, PassesOnTheNewWordsFromItsEndOn) {
+TEST_F(ReplayTest, PassesOnThePresentMessagesFromItsEndOn) {
   const Speech then = random_speech(1, 40), now = random_speech(2, 40);
   const std::filesystem::path file = record(then);
   for (const std::size_t step : {0U, 1U, 17U, 39U}) {
@@ -192,7 +192,7 @@ TEST_F(TellsOfItself, AnActivityIsTakenFromTheRecordingAndIsNoDifference) {
   EXPECT_EQ(differences_, 0U);
 }
 
-TEST_F(TellsOfItself, ItsDebugValuesAreTakenAndComparedLikeCommands) {
+TEST_F(TellsOfItself, DebugValuesAreTakenFromTheRecordingAndComparedLikeCommands) {
   const auto topic = topics::debug("jurong", "boxes_left");
   const Told then = {debug(3.0), debug(2.0)};
   EXPECT_EQ(retold(topic, then, topic, then), then);

@@ -1,7 +1,7 @@
 // A property of a run: a condition over its signals, and when it must hold. Temporal operators and their margins are
 // those of signal temporal logic on the run's exchanges (Donze and Maler 2010, see core/expressions/expression.hpp).
-// The margin of `always` is the least in its window, that of `eventually` the greatest, that of `finally` the one in the
-// last exchange. That of `a until b` is the greatest, over all instants t, of min(b at t, least a before t).
+// The margin of `always` is the least in its window, that of `eventually` the greatest, that of `finally` the one in
+// the last exchange. That of `a until b` is the greatest, over all instants t, of min(b at t, least a before t).
 // docs/properties.md explains properties to users; property_parser.hpp reads their texts.
 // Pure.   Times: simulated seconds.
 #pragma once
