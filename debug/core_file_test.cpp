@@ -5,7 +5,7 @@
 namespace skein::cli {
 namespace {
 
-TEST(CoreFile, ItsNameFollowsTheKernelsPattern) {
+TEST(CoreFile, TheNameOfACoreFollowsTheKernelsPattern) {
   EXPECT_EQ(core_name("core", false, 42), "core");
   EXPECT_EQ(core_name("core", true, 42), "core.42");
   EXPECT_EQ(core_name("/tmp/core.%e.%p", true, 42), "/tmp/core.*.42");

@@ -27,7 +27,7 @@ bool holds(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// A debugger has the command's environment, too, since it passes that on.
+/// A debugger must be recognised by its name, because it has the same environment as the command that it starts.
 bool is_debugger(pid_t pid) {
   const std::string name = process_name(pid);
   for (const char* known : {"gdb", "gdbserver", "lldb", "lldb-server", "rr", "strace"}) {

@@ -46,7 +46,7 @@ TEST(Debuggee, AnInvalidOptionIsRefused) {
   EXPECT_THROW(parse({"jurong=wait", "jurong=/bin/sh"}), InputError);
 }
 
-TEST(Debuggee, ItsToolPrecedesTheCommandLine) {
+TEST(Debuggee, TheToolPrecedesTheProgramsCommandLine) {
   ProgramSpec program{"uav_agent-jurong", {"/bin/agent", "--uav", "jurong"}, {}, "a.log"};
   put_under_tool(program, parse({"jurong=/bin/sh -e"})[0]);
   EXPECT_EQ(program.argv, (std::vector<std::string>{"/bin/sh", "-e", "/bin/agent", "--uav", "jurong"}));

@@ -52,8 +52,8 @@ struct Lane {
 /// In fleet order.
 std::vector<Lane> lanes_of(const results::RunRecord& run);
 
-/// The points that were never in a picture, and what they lost: those that a UAV came near, within the range in which
-/// its camera's resolution is sufficient, and the others.
+/// The points that were never in a picture, and their loss. A point is `near` if a UAV came within the range in which
+/// its camera's resolution is sufficient; the others are `far`.
 struct NeverInPicture {
   std::size_t points_near = 0, points_far = 0;
   double loss_near = 0.0, loss_far = 0.0;
