@@ -52,7 +52,7 @@ TEST(RecordedLinks, AreBlockedIfTheyCloseWithoutAFault) {
   EXPECT_FALSE(has_cuts(run));
 }
 
-TEST(RecordedLinks, OfANodeInABlackoutAreCut) {
+TEST(RecordedLinks, LinksOfANodeInABlackoutAreCut) {
   results::RunRecord run = two_uavs();
   run.faults = {{"blackout", "b", 10.0, 20.0}};
   add_link_events(run, 10.0, "b");
@@ -64,7 +64,7 @@ TEST(RecordedLinks, OfANodeInABlackoutAreCut) {
   EXPECT_EQ(digits(run, 25.0), "011101110");
 }
 
-TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
+TEST(RecordedLinks, LinksBetweenTheGroupsOfAPartitionAreCut) {
   results::RunRecord run = two_uavs();
   run.faults = {{"partition", "gcs a | b", 10.0, 20.0}, {"kill", "a", 30.0, 40.0}};
   add_link_events(run, 10.0, "b");
@@ -75,14 +75,14 @@ TEST(RecordedLinks, AreCutBetweenTheGroupsOfAPartition) {
   EXPECT_EQ(digits(run, 35.0), "010000000") << "a killed program cuts no link";
 }
 
-TEST(RecordedLinks, OfTheStationAreCutDuringAStationOutage) {
+TEST(RecordedLinks, LinksOfTheStationAreCutDuringAStationOutage) {
   results::RunRecord run = two_uavs();
   run.faults = {{"station_outage", "gcs", 10.0, 20.0}};
   add_link_events(run, 10.0, "gcs");
   EXPECT_EQ(digits(run, 12.0), "022201210");
 }
 
-TEST(RecordedLinks, OfAUavThatCollidedAreDead) {
+TEST(RecordedLinks, LinksOfAUavThatCollidedAreDead) {
   results::RunRecord run = two_uavs();
   run.collisions = {{10.0, "a", "structure", {}}};
   add_link_events(run, 10.05, "a");

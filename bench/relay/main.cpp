@@ -1,6 +1,6 @@
 // bench_relay: measures the time of a radio message through comm_router, and through a bare relay: a process that only
 // copies messages from one domain to another, over the same vendor. Measures both in turn, message by message, in one
-// run; prints one line of JSON on stdout. The clock starts before the last sample is written for which the router waits
+// run; prints one line of JSON on stdout. The clock starts just before the last sample that the router needs is written
 // (the sender's Done; for the bare relay: the message) and stops in the callback of a reader in the target's domain.
 #include <sys/prctl.h>
 #include <sys/wait.h>

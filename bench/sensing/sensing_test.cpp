@@ -57,7 +57,7 @@ class SensingPage : public testing::Test {
   }
 };
 
-TEST_F(SensingPage, PicturesShowAllThatThereIsToKnow) {
+TEST_F(SensingPage, PicturesShowFreeOccupiedAndUnknownSpace) {
   for (const SiteStudy& study : studies()) {
     ASSERT_EQ(study.snapshots.size(), 2U);
     expect_picture(study.level);
@@ -71,7 +71,7 @@ TEST_F(SensingPage, PicturesShowAllThatThereIsToKnow) {
   }
 }
 
-TEST_F(SensingPage, InALooseBoxTheBeamsProveMore) {
+TEST_F(SensingPage, BeamsProveMoreFreeSpaceInALooseBoxThanKeyFrames) {
   const Band& near = studies().front().snapshots.back().bands.front();
   EXPECT_GT(near.world, near.today);
   EXPECT_GT(near.free_m3, 3000.0);
@@ -122,7 +122,7 @@ TEST(SensingStops, TheSpeedForAStoppingDistanceIsInterpolated) {
   EXPECT_EQ(speed_within({}, 9.0), 0.0);
 }
 
-TEST(SensingSlice, CutsATriangleWhereItIs) {
+TEST(SensingSlice, ATriangleIsCutAlongItsIntersectionWithThePlane) {
   const Plane plane{.corner_W = {-1.0, -1.0, 2.0}, .width_m = 4.0, .height_m = 4.0};
   const TriangleMesh mesh{.vertices = {{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 3.0F}, {2.0F, 0.0F, 1.0F}, {90.0F, 0.0F, 1.0F}},
                           .triangles = {{0, 1, 2}, {0, 2, 3}}};

@@ -77,8 +77,8 @@ export class Fleet {
 }
 
 /**
- * The station, and the places of collisions: those in the page's data, and those of the UAVs of a flight that is told
- * in lines.
+ * The station, and the places of collisions: those in the page's data, and those of UAVs in a flight that arrives as
+ * lines.
  */
 export class Marks {
   constructor() {

@@ -34,7 +34,7 @@ const saidBy = ofUav('saidBy');
 /** @returns by UAV of the page: its share of the score, and its undelivered captures. */
 export const sharesAt = (time) => flights.flatMap((flight) => flight.sharesAt(time));
 
-/** @returns the events of all flights; of two flights, "run" is the name of the event's. */
+/** @returns the events of all flights; for two flights, `run` names the flight of each event. */
 export function allEvents() {
   if (!isPair()) return flights[0].events;
   return flights.flatMap(({events}, k) => events.map((event) => ({...event, run: kRuns[k]})));

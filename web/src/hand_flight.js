@@ -131,7 +131,7 @@ class Hands {
     if (this.uav !== null) this.say(true);
   }
 
-  /** Sends the command if it is due. @param rest  commands rest, whatever the gamepads say. */
+  /** Sends the command if it is due. @param rest  commands the UAV to rest, even if a gamepad says otherwise. */
   say(rest = false) {
     if (this.uav === null) return;
     const away = rest || document.hidden || !document.hasFocus();

@@ -37,7 +37,7 @@ export function thin(columns, most) {
   return true;
 }
 
-/** Removes the shortest spans, and the shortest gaps. @param spans  begin and end of each, one after the other [s]. */
+/** Removes the shortest spans, and the shortest gaps. @param spans  flat list: begin and end of each span [s]. */
 export function thinSpans(spans, most = kMostSpans) {
   if (spans.length < most) return;
   for (let least = 0.5; spans.length > most / 2; least *= 2) {

@@ -17,7 +17,7 @@ const kindOf = (mode) => kKinds.find(({begins}) => begins.some((begin) => mode.s
 
 /**
  * Computes the times of each kind of activity of a UAV.
- * @param said  times [s], ascending, and activity reports. @param end  of the last span [s].
+ * @param said  times [s], ascending, and activity reports. @param end  end of the last span [s].
  * @returns by kind: its colour, and begin and end of each of its spans, one after the other [s].
  */
 export function spansOf({t, what}, end) {

@@ -25,7 +25,7 @@ export const trackColour = (uav) => `t${(data.uavs?.[uav]?.own ?? uav) % 6}`;
 const listeners = [];
 let chosen = data.end;
 export const moment = {
-  /** Whether the page shows the newest moment, also when that moves on. */
+  /** Whether the page always shows the newest moment, also while the run goes on. */
   newest: true,
   get seconds() {
     return this.newest ? data.end : chosen;

@@ -86,7 +86,7 @@ class Trails {
     this.paints.needsUpdate = true;
   }
 
-  /** @param isThere  whether a UAV of the page is drawn; if no UAV of the fleet is, neither are its trails. */
+  /** @param isThere  tells whether a UAV of the page is drawn. The trails are hidden if no UAV of their fleet is. */
   showUntil(seconds, isThere) {
     this.grow();
     const count = indexAt(this.ends, seconds) + 1;
