@@ -76,6 +76,8 @@ bool Schedule::apart(std::size_t uav, const std::vector<PlanMove>& moves, double
   }
 }
 
+/// The result has no moves if there is no path: only successive stops of a route are sure to be connected, and after
+/// skipped views a trip begins at an earlier stop.
 Schedule::Trip Schedule::trip(const Trip& before, std::size_t from, std::size_t to) {
   const TeamKind& kind = team_.kinds[legs_.kind(to)];
   const View& view = views_[to];
@@ -88,12 +90,14 @@ Schedule::Trip Schedule::trip(const Trip& before, std::size_t from, std::size_t 
     t = until_s;
     at = corner;
   }
+  if (next.moves.empty()) return next;
   next.moves.back().picture = true;
   next.done_s = std::max(t, before.done_s + legs_.turn_s(from, to)) + settle_s_ + kPictureS;
   return next;
 }
 
 /// Delays a trip until its path is free, and its end is free for `stay_s`. @returns false if that fails.
+/// @param trip  has moves
 bool Schedule::leave(std::size_t uav, Trip& trip, double stay_s) const {
   const double ready_s = trip.moves.front().from_s;
   for (int i = 0; i <= kMostWaits; ++i) {
@@ -140,7 +144,7 @@ Timetable Schedule::add(const Route& route) {
   int skipped = 0;
   for (std::size_t i = 0; i < route.stops.size() && !trips.empty(); ++i) {
     Trip next = trip(trips.back(), trips.back().view, route.stops[i]);
-    if (leave(uav, next, 0.0) && next.done_s + legs_.tail_s(next.view) <= end_s_ - kDeliveryS) {
+    if (!next.moves.empty() && leave(uav, next, 0.0) && next.done_s + legs_.tail_s(next.view) <= end_s_ - kDeliveryS) {
       trips.push_back(std::move(next));
       skipped = 0;
     } else if (++skipped > kMostSkipped && trips.size() > 1) {

@@ -1,4 +1,4 @@
-// UAVs whose paths cross keep apart: the second UAV waits.
+// UAVs whose paths cross keep apart: the second UAV waits. A UAV skips views that it cannot reach.
 #include "sim_server/plan/schedule.hpp"
 
 #include <gtest/gtest.h>
@@ -29,6 +29,22 @@ TEST(PlanSchedule, TheSecondUavWaitsIfItsPathCrossesThatOfTheFirst) {
     const double distance = (plan_state(kind, first.moves, t).p_WB - plan_state(kind, second.moves, t).p_WB).norm();
     ASSERT_GE(distance, Schedule::least_distance(kind, kind) - 0.1 * kind.speed) << t;
   }
+}
+
+TEST(PlanSchedule, AUavSkipsAViewThatItCannotReach) {
+  test::PlanSite site(2, 60.0);
+  const Team team(site.scenario, site.config);
+  std::vector<View> views(3);
+  views[0].p_WB = {2.0, 2.0, kTakeoffHeight};
+  views[1].p_WB = {16.0, 0.0, 7.0};  // inside the block
+  views[2].p_WB = {2.0, -4.0, kTakeoffHeight};
+  for (View& view : views) view.kind = team.kind_of[1];
+  const RayScene world(site.scene.mesh);
+  Legs legs(site.scenario, world, {Vector3d(10.0, -6.0, 0.0), Vector3d(26.0, 15.0, 14.0)}, team, views, site.config);
+  ASSERT_TRUE(legs.way(0, 1).empty());
+  Schedule schedule(legs, site.scenario, team, views, site.config.settle_s, site.scenario.duration_s);
+  schedule.add({});
+  EXPECT_EQ(schedule.add({{0, 1, 2}, {}, 0.0}).views, (std::vector<std::size_t>{0, 2}));
 }
 
 }  // namespace
