@@ -102,8 +102,13 @@ void Session::load_scene() {
 }
 
 int Session::serve() {
-  load_scene();
-  hello();
+  try {
+    load_scene();
+    hello();
+  } catch (const std::exception& error) {
+    fail({"", 0, 0, error.what()});
+    throw;  // run_session() prints the error, and its kind decides the exit code
+  }
   try {
     while (const auto message = socket_.receive()) answer(*message);
   } catch (const FleetFailed& failed) {

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import gc
+import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -152,6 +154,20 @@ def test_an_order_that_does_not_exist_is_refused() -> None:
             assert fleet._worker is not None
             with pytest.raises(skein.ProcessError, match=f'no order "{unknown}"'):
                 fleet._worker.ask(unknown)
+
+
+def test_a_process_that_cannot_load_its_scene_says_why(tmp_path: Path) -> None:
+    program = Path(skein.find_launcher()).with_name("uav_agent_fleet")
+    if not program.exists():
+        pytest.skip(f"{program} is not built")
+    plan = tmp_path / "plan.json"
+    plan.write_text('{"about": {}, "uavs": [], "programs": []}')
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    words = [program, "--session", str(theirs.fileno()), "--plan", plan]
+    with ours, subprocess.Popen(words, pass_fds=(theirs.fileno(),), stderr=subprocess.PIPE, text=True) as process:
+        theirs.close()
+        assert "no sim_server" in json.loads(ours.recv(4096))["failed"]
+        assert "no sim_server" in process.communicate()[1] and process.returncode == 3
 
 
 NAMED = ["throws", "throws_number", "segfaults", "aborts", "exits", "overflows", "hangs"]
