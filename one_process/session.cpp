@@ -204,7 +204,8 @@ void Session::fail(const FleetFailed& failed) {
 }
 
 void Session::cut_log() const {
-  if (::lseek(STDERR_FILENO, 0, SEEK_END) > kLongestLog) static_cast<void>(!::ftruncate(STDERR_FILENO, 0));
+  if (::lseek(STDERR_FILENO, 0, SEEK_END) <= kLongestLog || ::ftruncate(STDERR_FILENO, 0) != 0) return;
+  ::lseek(STDERR_FILENO, 0, SEEK_SET);  // otherwise the next line would follow zeros as long as the old log
 }
 
 int run_session(int argc, const char* const* argv) {

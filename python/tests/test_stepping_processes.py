@@ -230,6 +230,19 @@ def test_many_resets_grow_neither_memory_nor_files_nor_processes() -> None:
         assert sum(state != "Z" for state in workers().values()) <= 8
 
 
+def test_a_long_log_is_emptied_and_goes_on_at_its_beginning() -> None:
+    with skein.Fleet("towers", planner="hover", learners=["jurong"]) as fleet:
+        fleet.reset()
+        assert fleet._worker is not None
+        log = fleet._worker._log.fileno()
+        os.write(log, b"x" * (5 << 20))  # the offset is shared with the process
+        for _ in range(1024):  # one check of the log's length
+            fleet.step(step_s=0.05)
+        os.write(log, b"news")
+        content = os.pread(log, 6 << 20, 0)
+        assert content.endswith(b"news") and len(content) < 1 << 20 and b"\0" not in content
+
+
 SCRIPT = """
 import os, signal, sys
 sys.path.insert(0, {package!r})
