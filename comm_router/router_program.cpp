@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <system_error>
 
 #include "bus/program_bus.hpp"
@@ -23,6 +24,13 @@ struct Notes {
   std::vector<std::string> unwritten = {};  ///< files that could not be written
   std::optional<std::vector<std::string>> differences = {};
 };
+
+/// Adds each text that is not there yet.
+void add_new(const std::vector<std::string>& more, std::vector<std::string>& texts) {
+  for (const std::string& text : more) {
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+  }
+}
 
 RadioCounts radio_counts(const LinkCounts& counts) {
   return {.sent = counts.sent,
@@ -107,18 +115,15 @@ class RouterMember final : public bus::FleetMember {
 
   // Starts a new node after a fault that stopped the router: messages that waited in it are lost, as after its death.
   std::optional<int> ended(bus::NodeEnd end) override {
+    keep_notes();
     if (end == bus::NodeEnd::resumed) {
       make_node();
       return std::nullopt;
     }
     const int code = bus::exit_code(end, programs::kCommRouter);
-    unwritten_.insert(unwritten_.end(), node_->unwritten().begin(), node_->unwritten().end());
-    if (store_ && !store_->write_error().empty()) unwritten_.push_back(store_->write_error());
     recorder_.close();
-    if (!recorder_.write_error().empty()) unwritten_.push_back(recorder_.write_error());
-    const Notes notes{node_->malformed(), node_->unheard(), node_->unsent(),
-                      node_->warnings(),  unwritten_,       node_->differences()};
-    write_report(options_, scenario_, node_->gate(), notes, status_);
+    if (!recorder_.write_error().empty()) add_new({recorder_.write_error()}, notes_.unwritten);
+    write_report(options_, scenario_, node_->gate(), notes_, status_);
     if (!is_nowhere(counts_file_)) std::filesystem::remove(counts_file_);
     return code;
   }
@@ -127,13 +132,28 @@ class RouterMember final : public bus::FleetMember {
   void make_node() {
     node_.reset();
     store_.reset();
-    unwritten_.clear();
-    open_counts(store_, counts_file_, scenario_.fleet.size() + 1, options_.run, unwritten_);
+    std::vector<std::string> unwritten;
+    open_counts(store_, counts_file_, scenario_.fleet.size() + 1, options_.run, unwritten);
+    add_new(unwritten, notes_.unwritten);
     node_.emplace(scenario_, options_.seed, options_.domain, *bus_, faults_, options_.out);
     if (store_) node_->keep_counts(*store_);
     node_->record_with(recorder_);
     node_->expect_stand_ins(stand_ins_);
     if (replay_.active()) node_->replay(replay_);
+  }
+
+  /// Adds the facts of the present node, which has ended, to those of the nodes before it.
+  void keep_notes() {
+    notes_.malformed += node_->malformed();
+    notes_.unheard += node_->unheard();
+    notes_.unsent += node_->unsent();
+    add_new(node_->warnings(), notes_.warnings);
+    add_new(node_->unwritten(), notes_.unwritten);
+    if (store_ && !store_->write_error().empty()) add_new({store_->write_error()}, notes_.unwritten);
+    if (const auto differences = node_->differences()) {
+      if (!notes_.differences) notes_.differences.emplace();
+      add_new(*differences, *notes_.differences);
+    }
   }
 
   const Scenario scenario_;
@@ -145,7 +165,7 @@ class RouterMember final : public bus::FleetMember {
   const recording::ReplayOptions replay_;
   const std::vector<std::string> stand_ins_;
   recording::Recorder recorder_;
-  std::vector<std::string> unwritten_;
+  Notes notes_;  ///< of all nodes until now
   std::optional<CountStore> store_;
   std::optional<RouterNode> node_;
 };

@@ -9,7 +9,6 @@
 #include "idl/conversions.hpp"
 #include "process/status/status_lines.hpp"
 #include "results/run_folder.hpp"
-#include "station/station_report.hpp"
 
 namespace skein::station {
 
@@ -100,7 +99,7 @@ void StationNode::think() {
   const bool news = outcome.score_changed || scoreboard_->standing() != stood;
   if (std::string trouble = journal_.append(outcome.records); !trouble.empty()) {
     spdlog::warn("{}; a station that is killed will not remember what it acknowledges from here on", trouble);
-    note_unwritten(std::move(trouble));
+    unwritten_.push_back(std::move(trouble));
   }
   const bus::Burst burst(*gcs_);
   acknowledge(outcome);
@@ -122,10 +121,6 @@ bus::CountedWriter StationNode::heard_writer(const topics::WireTopic& topic) {
 
 void StationNode::stop_serving() {
   if (view_) view_->stop();
-}
-
-void StationNode::note_unwritten(std::string trouble) {
-  if (!trouble.empty()) unwritten_.push_back(std::move(trouble));
 }
 
 void StationNode::record_tally(Tick tick) {
@@ -188,9 +183,12 @@ void StationNode::tell(bool now) {
                                                .earned = scoreboard_->earned().score()}));
 }
 
-void StationNode::write_report(const std::string& dds) {
-  const StationNotes notes{inbox_.malformed(), gcs_->unsent().count(), dds, unwritten_};
-  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, notes);
+StationNotes StationNode::notes() const {
+  return {.malformed = inbox_.malformed(), .unsent = gcs_->unsent().count(), .unwritten = unwritten_};
+}
+
+void StationNode::write_report(StationNotes notes) {
+  if (scoreboard_) write_station_report(out_, *scoreboard_, uavs_, status_, std::move(notes));
 }
 
 }  // namespace skein::station

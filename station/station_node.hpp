@@ -19,6 +19,7 @@
 #include "station/point_names.hpp"
 #include "station/score_view.hpp"
 #include "station/scoreboard.hpp"
+#include "station/station_report.hpp"
 #include "station/view_node.hpp"
 
 namespace skein::station {
@@ -35,11 +36,11 @@ class StationNode final : public bus::ClientNode {
   ~StationNode() override;
 
   bus::Inbox& inbox() override { return inbox_; }
-  /// Adds to the report that another file could not be written. @param trouble  a sentence; empty: none.
-  void note_unwritten(std::string trouble);
+  /// Facts for the report that are not in the scoreboard, without those of earlier nodes.
+  StationNotes notes() const;
   /// When the station's part in the run is over: writes its result files (station_report.hpp), unless it never received
-  /// the number of points. @param dds  DDS vendor
-  void write_report(const std::string& dds = {});
+  /// the number of points. @param notes  of all its nodes
+  void write_report(StationNotes notes);
   /// Ends the page at once, as if the process were killed: browsers get nothing more.
   void stop_serving();
 

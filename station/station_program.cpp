@@ -1,6 +1,7 @@
 #include "station/station_program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "bus/program_bus.hpp"
 #include "core/scenario/scenario_reader.hpp"
@@ -36,13 +37,14 @@ class StationMember final : public bus::FleetMember {
 
   // Starts a new node after a fault that stopped the station: it continues from the journal.
   std::optional<int> ended(bus::NodeEnd end) override {
+    keep_notes();
     if (end == bus::NodeEnd::resumed) {
       make_node();
       return std::nullopt;
     }
     recorder_.close();
-    node_->note_unwritten(recorder_.write_error());
-    if (!node_->came_too_late()) node_->write_report(options_.dds);
+    if (!recorder_.write_error().empty()) notes_.unwritten.push_back(recorder_.write_error());
+    if (!node_->came_too_late()) node_->write_report(notes_);
     return bus::exit_code(end, programs::kStation);
   }
 
@@ -53,6 +55,16 @@ class StationMember final : public bus::FleetMember {
                   score_);
   }
 
+  /// Adds the facts of the present node, which has ended, to those of the nodes before it.
+  void keep_notes() {
+    const StationNotes notes = node_->notes();
+    notes_.malformed += notes.malformed;
+    notes_.unsent += notes.unsent;
+    for (const std::string& file : notes.unwritten) {
+      if (std::ranges::find(notes_.unwritten, file) == notes_.unwritten.end()) notes_.unwritten.push_back(file);
+    }
+  }
+
   const Scenario scenario_;
   const ProgramOptions options_;
   StatusPipe& status_;
@@ -60,6 +72,7 @@ class StationMember final : public bus::FleetMember {
   const std::optional<ReadyView> view_;
   const std::shared_ptr<ScoreView> score_;
   recording::Recorder recorder_;
+  StationNotes notes_{.dds = options_.dds};  ///< of all nodes until now
   std::optional<StationNode> node_;
 };
 
