@@ -34,9 +34,14 @@ void FlightCheck::add(Tick tick, const RayScene& rays, std::span<const CheckedUa
       check_tracking(tick, i, uavs[i]);
     } else {
       bodies_[i].rests_at = tick;
+      bodies_[i].hits = false;
     }
     for (const UavIndex j : FirstUavs(i)) {
-      if (uavs[j].present && (uavs[i].flies || uavs[j].flies)) check_pair(tick, j, i, uavs);
+      if (uavs[j].present && (uavs[i].flies || uavs[j].flies)) {
+        check_pair(tick, j, i, uavs);
+      } else {
+        meeting_.erase({j, i});
+      }
     }
   }
 }

@@ -178,6 +178,21 @@ TEST(FlightCheck, AUavThatIsOutOrStandsOnTheGroundIsNotChecked) {
   EXPECT_EQ(other.braking_meets, 1U);
 }
 
+TEST(FlightCheck, TheCheckListsTheFirstFindingOfEachFlight) {
+  const Scenario scenario = fleet_of({"explorer", "explorer"});
+  const RayScene wall = wall_from_x_0();
+  std::vector<CheckedUav> uavs = {flying({-1, 0, 5}, {6, 0, 0}), flying({-1, 0.2, 5}, {6, 0, 0})};
+  FlightCheck check(scenario);
+  std::size_t listed = 0;
+  Tick tick = 0;
+  for (const bool flies : {true, true, false, true, true}) {
+    if (flies && !uavs[0].flies) listed = 3;
+    for (CheckedUav& uav : uavs) uav.flies = flies;
+    check.add(tick += 20, wall, uavs);
+    EXPECT_EQ(check.findings().first.size(), listed + 3) << "each UAV with the wall, and the two with each other";
+  }
+}
+
 /// A pilot's setpoints, one after the other.
 using Pilot = std::function<TrajectoryCommand(double t)>;
 
