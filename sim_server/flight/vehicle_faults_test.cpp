@@ -271,13 +271,14 @@ TEST_F(Faulty, AStuckGimbalStaysAndThenObeysTheLastCommand) {
   double stuck_at = 0.0;
   bool still = true, other_moves = false;
   fly(plan({fault(10.0, 15.0, StuckGimbal{"lead"})}), 20.0, [&](double t) {
-    gimbals_to(t < 9.0 ? 0.3 : -0.3);
+    gimbals_to(t < 11.0 ? 0.3 : -0.3);
     const double yaw = lead().gimbal.yaw;
     if (t < 10.0) stuck_at = yaw;
     if (t >= 10.0 && t < 15.0) still &= yaw == stuck_at && lead().gimbal.yaw_rate == 0.0;
     other_moves |= t > 10.0 && t < 15.0 && simulation_->uav(UavIndex{1}).gimbal.yaw_rate != 0.0;
   });
   EXPECT_TRUE(still);
+  EXPECT_TRUE(other_moves) << "the gimbal of the other UAV works on";
   EXPECT_NEAR(lead().gimbal.yaw, -0.3, 1e-3);
 }
 
