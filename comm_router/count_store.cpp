@@ -39,9 +39,10 @@ CountStore::CountStore(const std::filesystem::path& file, std::size_t nodes, Run
     return;
   }
   // A new file, or one of another run: all counts begin at 0. Writes the file in full length at once, so that a full
-  // disk is noticed before the first count.
-  if (!write(0, &ours, sizeof ours) || !write(sizeof ours, counts_.row_major().data(), bytes) ||
-      ::ftruncate(fd_, static_cast<off_t>(sizeof ours + bytes)) != 0) {
+  // disk is noticed before the first count. The head comes last: a router that is killed before leaves a file that is
+  // not this run's, and not its head before the counts of another run.
+  if (!write(sizeof ours, counts_.row_major().data(), bytes) ||
+      ::ftruncate(fd_, static_cast<off_t>(sizeof ours + bytes)) != 0 || !write(0, &ours, sizeof ours)) {
     const std::system_error error = failure();
     ::close(fd_);
     throw error;

@@ -43,6 +43,27 @@ class CountStoreTest : public testing::Test {
     return {talk(), sequence, std::make_shared<const std::vector<std::uint8_t>>(8, std::uint8_t{1})};
   }
 
+  /// Opens the file in a process of its own, which may write files of at most `most_bytes`, and expects a failure.
+  void open_in_vain(std::size_t nodes, RunId run, rlim_t most_bytes) const {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      ::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{most_bytes, most_bytes};
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+      try {
+        const CountStore store(file_, nodes, run);
+      } catch (const std::system_error& error) {
+        ::_exit(std::string(error.what()).find(file_) != std::string::npos ? 42 : 1);
+      }
+      ::_exit(0);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 42);
+  }
+
   const std::filesystem::path file_ =
       std::filesystem::path(testing::TempDir()) / ("skein_counts_" + std::to_string(::getpid()));
   const Links linked_{3, {0, 1, 1, 1, 0, 1, 1, 1, 0}};
@@ -85,24 +106,13 @@ TEST_F(CountStoreTest, ARouterIgnoresTheCountsOfAnotherRun) {
       << "the file belongs to the other run now";
 }
 
-TEST_F(CountStoreTest, OpeningTheFileFailsIfTheDiskIsFull) {
-  const pid_t child = ::fork();  // so that the limit of file sizes does not apply to this process
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    ::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{1000, 1000};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-    try {
-      const CountStore store(file_, 64);
-    } catch (const std::system_error& error) {
-      ::_exit(std::string(error.what()).find(file_) != std::string::npos ? 42 : 1);
-    }
-    ::_exit(0);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 42);
+TEST_F(CountStoreTest, OpeningTheFileFailsIfTheDiskIsFull) { open_in_vain(64, RunId::none, 1000); }
+
+TEST_F(CountStoreTest, ARouterThatEndsBeforeTheFileIsWholeLeavesNoCountsOfAnotherRun) {
+  LinkGate gate(routes_, 3, std::make_unique<SlowLinks>());
+  CountStore(file_, 3, RunId{7}).save(gate, gate.gate(0, linked_, {message(0)}));
+  open_in_vain(3, RunId{8}, 100);
+  EXPECT_EQ(CountStore(file_, 3, RunId{8}).earlier_counts(), LinkMatrix<LinkCounts>(3));
 }
 
 TEST_F(CountStoreTest, ANewFileIsFullyAllocatedSoThatLaterWritesDoNotNeedFreeSpace) {
