@@ -34,7 +34,7 @@ std::string check_seconds(const std::string& text) {
 
 std::string check_timeout(const std::string& text) {
   const auto value = parse_number(text);
-  const bool good = value && *value >= kLeastTimeoutS && *value <= kLongestS;
+  const bool good = value && *value >= kLeastTimeoutS && *value <= kLongestTimeoutS;
   return good ? "" : "'" + text + "' must be a number of seconds from 0.1 to 36000";
 }
 

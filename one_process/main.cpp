@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   const auto add_options = [&](CLI::App& app) {
     app.description("Skein: a whole fleet in one process");
     app.add_option("--agent-timeout", patience_s, "Wall time that a program may take for one step [s], 0: no limit")
-        ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
+        ->check(CLI::Validator(check_timeout_or_none, ""));
     app.add_option("--threads", threads, "Number of threads; results do not depend on it")
         ->check(CLI::Range(1, static_cast<int>(TurnPage::kSeats)))
         ->capture_default_str();

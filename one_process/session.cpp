@@ -218,7 +218,7 @@ int run_session(int argc, const char* const* argv) {
         ->group("Launcher");
     app.add_option("--plan", plan, "File in which the launcher describes the fleet")->group("Launcher");
     app.add_option("--agent-timeout", patience_s, "Wall time that a program may take for one step [s], 0: no limit")
-        ->check(CLI::Validator(check_not_negative, "NONNEGATIVE"));
+        ->check(CLI::Validator(check_timeout_or_none, ""));
   };
   const auto options = parse_program(programs::kOneProcess, argc, argv, add_options);
   if (const int* code = std::get_if<int>(&options)) return *code;

@@ -15,6 +15,8 @@ std::string check_not_negative(const std::string& text) {
   return number && *number >= 0.0 ? "" : "'" + text + "' must be a number of at least 0";
 }
 
+std::string check_timeout_or_none(const std::string& text) { return number_within(0.0, kLongestTimeoutS)(text); }
+
 std::string check_decimal(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+-");
   if (first == std::string::npos || text[first] != '0' || first + 1 == text.size()) return "";

@@ -14,6 +14,13 @@ std::string check_positive(const std::string& text);
 /// @returns an empty text if `text` is a number of at least 0, otherwise an error message.
 std::string check_not_negative(const std::string& text);
 
+/// Longest timeout that can be set, for the launcher and for programs [s of wall time]. With much longer ones, clocks
+/// that count nanoseconds would overflow.
+inline constexpr double kLongestTimeoutS = 36000.0;
+/// @returns an empty text if `text` is a number of seconds within [0, kLongestTimeoutS], where 0 means no limit;
+/// otherwise an error message.
+std::string check_timeout_or_none(const std::string& text);
+
 /// @returns an error message if `text` begins like an octal or hexadecimal number, which CLI11 would read as such: 010
 /// as 8. An empty text otherwise, also for a text that is not a number.
 std::string check_decimal(const std::string& text);

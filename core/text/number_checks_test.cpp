@@ -23,6 +23,13 @@ TEST(NumberChecks, ARangeHasOnlyNumbersInDecimalDigits) {
   }
 }
 
+TEST(NumberChecks, TimeoutsHaveAMaximum) {
+  for (const char* good : {"0", "0.5", "36000"}) EXPECT_EQ(check_timeout_or_none(good), "") << good;
+  for (const char* bad : {"-1", "36001", "1e10", "inf", "nan", ""}) {
+    EXPECT_EQ(check_timeout_or_none(bad), "'" + std::string(bad) + "' must be a number within [0, 36000]");
+  }
+}
+
 TEST(NumberChecks, SeedsAreWholeNumbersOf64BitsInDecimalDigits) {
   for (const char* good : {"0", "7", "18446744073709551615"}) EXPECT_EQ(check_seed(good), "") << good;
   for (const char* bad : {"-1", "18446744073709551616", "1.5", "1e3", "0x10", "", "x"}) {
