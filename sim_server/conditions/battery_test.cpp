@@ -59,8 +59,17 @@ TEST(Battery, TheVoltageSagsUnderLoad) {
   battery.draw(1e9, 0.01);
   EXPECT_NEAR(battery.status().voltage_v, 0.5 * open_v, 0.01 * open_v)
       << "at the greatest power that the battery can give";
+}
+
+TEST(Battery, ABatteryLosesTheChargeThatItsCurrentDraws) {
+  Battery battery(conditions(1.0), test::vehicle_named("explorer"), kMission_s);
+  double drawn_as = 0.0;
+  for (const double power_w : {100.0, 400.0, 900.0, 1e9}) {
+    battery.draw(power_w, 0.5);
+    drawn_as += 0.5 * battery.status().current_a;
+  }
   const BatteryStatus status = battery.status();
-  EXPECT_NEAR(status.capacity_ah * status.charge, battery.charge() * status.capacity_ah, 1e-12);
+  EXPECT_NEAR(3600.0 * status.capacity_ah * (1.0 - status.charge), drawn_as, 1e-9 * drawn_as);
 }
 
 TEST(Battery, AnEmptyBatteryGivesNothing) {
