@@ -45,7 +45,7 @@ CommandGuard::CommandGuard(const VehicleConfig& vehicle, const RulesConfig& rule
 std::optional<std::string> CommandGuard::refuse(const TrajectoryCommand& command, const RigidBodyState& state) const {
   if (!has_length(command.p_WB) || !has_length(command.v_WB) || !has_length(command.a_WB) ||
       !std::isfinite(command.yaw) || !std::isfinite(command.yaw_rate)) {
-    return "a set-point must consist of finite numbers below 1e153";
+    return "a setpoint must consist of finite numbers below 1e154";
   }
   if (!reject_) return std::nullopt;
   const double speed = command.v_WB.norm(), acceleration = command.a_WB.norm();
