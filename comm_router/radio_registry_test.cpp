@@ -105,7 +105,7 @@ TEST_F(Registry, TheFleetDoesNotWaitForAMemberAfterThreeRequestsWithoutAWriter) 
 }
 
 TEST_F(Registry, ListenersMayComeFirstOrLater) {
-  EXPECT_EQ(step({listening(kSecond, 1)}).at(0), (RadioReply{.asker = {kSecond, Node{2}, 1}})) << "nobody sends yet";
+  EXPECT_EQ(step({listening(kSecond, 1)}).at(0), (RadioReply{.asker = {kSecond, Node{2}, 1}})) << "no member sends yet";
   const auto replies = step({sending(kFirst, 1)});
   ASSERT_EQ(replies.size(), 2U);
   EXPECT_EQ(replies[0].unheard, (std::vector<std::string>{"gcs", "b"})) << "b has not opened its reader yet";

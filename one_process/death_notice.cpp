@@ -112,7 +112,7 @@ void DeathNotice::give_up(const std::string& why) const {
 }
 
 void DeathNotice::give_up_at_once() {
-  constexpr std::string_view kWhy = "this program did not end its turn, and with it stands the fleet\n";
+  constexpr std::string_view kWhy = "this program did not end its turn, and the whole fleet waits for it\n";
   static_cast<void>(!::write(STDERR_FILENO, kWhy.data(), kWhy.size()));
   tell_of_death(SIGABRT);
   ::_exit(kExitProcessFailed);

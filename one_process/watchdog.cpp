@@ -40,7 +40,7 @@ void Watchdog::watch(double patience_s) {
       } else if (Clock::now() - seen[seat].since >= patience) {
         if (const DeathNotice* holder = crew_.holder(seat); holder != nullptr && crew_.turns(seat) == now) {
           holder->give_up(
-              fmt::format("this program did not end its turn for {} s, and with it stands the fleet", patience_s));
+              fmt::format("this program did not end its turn for {} s, and the whole fleet waits for it", patience_s));
         }
       }
     }

@@ -29,7 +29,7 @@ class HandDeskTest : public testing::Test {
 };
 
 TEST_F(HandDeskTest, TheDeskReportsEachChangeOnce) {
-  EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt) << "nobody has sent a command yet";
+  EXPECT_EQ(desk_.news(kFirst, now_), std::nullopt) << "no viewer has sent a command yet";
   desk_.take(ahead("ann", 1.0), now_);
   desk_.take(ahead("ann", 2.0), now_);
   desk_.take(ahead("cid", 3.0), now_);

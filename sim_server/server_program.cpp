@@ -34,7 +34,8 @@ std::optional<double> realtime_factor(const std::string& clock) {
     const double factor = std::strtod(text.c_str(), &end);
     if (!text.empty() && *end == '\0' && factor > 0.0 && factor <= 1000.0) return factor;
   }
-  throw InputError("--clock " + clock + ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0");
+  throw InputError("--clock " + clock +
+                   ": it must be lockstep, realtime or realtime:FACTOR with a factor above 0 and at most 1000");
 }
 
 std::optional<WatchOptions> watch_options(const std::string& speed, const std::string& clock, bool losses,

@@ -153,7 +153,7 @@ TEST_F(RunFilesTest, TheReportNamesLostMembersSeenPointsAndMissingFiles) {
       {"member": "jurong", "step": 3, "time_s": 1.0, "reason": "it ended", "back_at_s": null},
       {"member": "changi", "step": 5, "time_s": 2.0, "reason": "killed", "back_at_s": 3.0}])"));
   EXPECT_EQ(report["points_total"], 3);
-  EXPECT_EQ(report["points_seen"], "000") << "no_launcher took a picture";
+  EXPECT_EQ(report["points_seen"], "000") << "no UAV took a picture";
   EXPECT_EQ(report["points_poor"], nlohmann::json::array());
   ASSERT_EQ(report["unwritten"].size(), 2u) << report["unwritten"];
   EXPECT_NE(report["unwritten"][0].get<std::string>().find("scene.json"), std::string::npos) << report["unwritten"];
