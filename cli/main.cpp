@@ -22,11 +22,12 @@ namespace skein::cli {
 namespace {
 
 /// The command of these arguments. A mission without --duration gets the duration in the environment. A capsule does
-/// not: it fixes its own flight completely.
+/// not: it fixes its own flight completely. Nor does help, which must also help if the environment is wrong.
 Command command_of(const std::vector<std::string>& arguments) {
   Command command = parse_command_line(arguments);
   const auto* run = command.get_if<RunOptions>();
   if (run != nullptr && is_capsule(*run)) return command;
+  if (command.get_if<HelpText>() != nullptr) return command;
   const std::vector<std::string> completed = with_duration_of_environment(arguments);
   return completed == arguments ? command : parse_command_line(completed);
 }

@@ -144,5 +144,13 @@ TEST_F(BadInput, APipeDeviceOrHugeFileIsRefusedAtOnce) {
   }
 }
 
+TEST_F(BadInput, AWrongDurationInTheEnvironmentDoesNotPreventHelp) {
+  for (const char* command : {"run", "compose", "compare", "contest"}) {
+    ChildProcess& help = start_program(command, {program("skein"), command, "--help"}, {{"SKEIN_DURATION", "soon"}});
+    EXPECT_EQ(help.wait().code, 0) << command << ": " << help.err();
+    EXPECT_NE(help.out().find("--duration"), std::string::npos) << help.out();
+  }
+}
+
 }  // namespace
 }  // namespace skein::test
