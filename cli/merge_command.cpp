@@ -112,10 +112,14 @@ void settle(const char* program, const char* books, const RunOptions& run, const
                                    std::to_string(flight.run.value_or(0))};
   if (run.uavs) argv.insert(argv.end(), {"--uavs", std::to_string(*run.uavs)});
   if (run.rules) argv.insert(argv.end(), {"--rules", *run.rules});
-  run_to_end({program, argv, fleet_environment(false), dir / run_folder::log_file(program), true});
-  if (!damage_of(dir, program)) return;
-  throw InputError(report.string() + ": is damaged, and Skein cannot restore it from " + books + ": see " + program +
-                   ".log");
+  const std::string log = run_folder::log_file(program);
+  const ExitStatus exit = run_to_end({program, argv, fleet_environment(false), dir / log, true});
+  if (damage_of(dir, program)) {
+    throw InputError(report.string() + ": is damaged, and Skein cannot restore it from " + books + ": see " + log);
+  }
+  if (exit.ok() || fs::exists(report)) return;
+  err << report.string() << ": is missing, and Skein cannot restore it from " << books << " (" << exit.text()
+      << "): see " << log << std::endl;
 }
 
 /// The values in a launcher's result.json that no report has. Null if there is no result, or if it is damaged.

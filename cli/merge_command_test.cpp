@@ -132,6 +132,16 @@ TEST_F(MergeCommand, ADamagedReportIsMadeAgainFromTheJournal) {
   EXPECT_EQ(results::read_result_file(dir())["score"], 2.25);
 }
 
+TEST_F(MergeCommand, AReportThatCannotBeMadeFromTheJournalIsNamed) {
+  programs_.script("station", "exit 3\n");
+  fs::remove(report("station"));
+  write_text(dir() / run_folder::kJournal, "the journal");
+  merge();
+  EXPECT_NE(err_.str().find(report("station").string() + ": is missing"), std::string::npos) << err_.str();
+  EXPECT_NE(err_.str().find("exit code 3"), std::string::npos) << err_.str();
+  EXPECT_NE(results::read_result_file(dir())["warnings"].dump().find("station left no report"), std::string::npos);
+}
+
 TEST_F(MergeCommand, TheResultIsMadeFromTheReportThatWasChecked) {
   programs_.script("station",
                    "echo '{\"score\": 2.25}' > \"$out/station.report.json\"\n"
