@@ -174,8 +174,14 @@ std::vector<std::string> exposed_files(const FleetPlan& plan) {
   return warnings;
 }
 
-SecureRun::SecureRun(const FleetPlan& plan, int base_domain, fs::path out)
-    : out_(std::move(out)), out_perms_(fs::status(out_).permissions()) {
+KeptMode::KeptMode(fs::path folder) : folder_(std::move(folder)), mode_(fs::status(folder_).permissions()) {}
+
+KeptMode::~KeptMode() {
+  std::error_code ignored;
+  fs::permissions(folder_, mode_, ignored);
+}
+
+SecureRun::SecureRun(const FleetPlan& plan, int base_domain, fs::path out) : out_(std::move(out)), out_mode_(out_) {
   if (any_agents_user()) {
     const auto vendors = dds_vendors(plan);
     users_.emplace(static_cast<std::size_t>(std::count_if(
@@ -206,10 +212,7 @@ void SecureRun::make_folders(const FleetPlan& plan, int base_domain) {
   }
 }
 
-SecureRun::~SecureRun() {
-  std::error_code ignored;
-  fs::permissions(out_, out_perms_, ignored);
-}
+SecureRun::~SecureRun() = default;
 
 std::vector<std::string> SecureRun::collect() const {
   if (users_) users_->end_processes();

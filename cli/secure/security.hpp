@@ -32,6 +32,19 @@ std::unique_ptr<UserIds> check_agents_access(const FleetPlan& plan);
 /// root: one for all of the user's files.
 std::vector<std::string> exposed_files(const FleetPlan& plan);
 
+/// At its end, gives a folder the mode that the folder had at its beginning.
+class KeptMode {
+ public:
+  explicit KeptMode(std::filesystem::path folder);
+  ~KeptMode();
+  KeptMode(const KeptMode&) = delete;
+  KeptMode& operator=(const KeptMode&) = delete;
+
+ private:
+  std::filesystem::path folder_;
+  std::filesystem::perms mode_;
+};
+
 /// Holds the keys of a run: they exist as long as this object.
 class SecureRun {
  public:
@@ -57,7 +70,7 @@ class SecureRun {
 
   ScratchDir scratch_;
   std::filesystem::path out_;
-  std::filesystem::perms out_perms_;
+  KeptMode out_mode_;  ///< an object of its own, so that the constructor's errors restore the mode, too
   SecureFolders folders_;
   std::optional<UserIds> users_;  ///< one for each agent; nullopt: the launcher is not root
 };

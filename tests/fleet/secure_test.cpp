@@ -322,6 +322,13 @@ TEST_F(Secure, BadRequestsAreRefusedBeforeAnythingStarts) {
   SkeinRun& mixed = run("mixed", arguments("mixed", {"--secure"}), {}, 2);
   EXPECT_NE(mixed.err().find("--secure --dds mixed"), std::string::npos) << mixed.err();
   if (!is_root()) return;
+  for (const char* name : {"tmp", "no_keys"}) fs::create_directory(folder() / name);
+  fs::permissions(folder() / "tmp", fs::perms(0700));
+  fs::permissions(folder() / "no_keys", fs::perms(0755));
+  SkeinRun& no_keys =
+      run("no_keys", arguments("cyclonedds", {"--secure"}), {{"TMPDIR", (folder() / "tmp").string()}}, 2);
+  EXPECT_NE(no_keys.err().find("cannot read " + (folder() / "tmp").string()), std::string::npos) << no_keys.err();
+  EXPECT_EQ(fs::status(no_keys.dir()).permissions(), fs::perms(0755)) << "the mode that it had before";
   fs::permissions(folder() / "small", fs::perms(0700));
   SkeinRun& closed = run("closed", arguments("cyclonedds", {"--secure"}), {}, 2);
   EXPECT_NE(closed.err().find("chmod o+rX " + (folder() / "small").string()), std::string::npos) << closed.err();
