@@ -128,6 +128,22 @@ TEST_F(FaultTestCommand, WithRotateEachTestFliesOneOfTheRepetitions) {
   EXPECT_EQ(flights(), "yes cyclonedds calm\nyes fastdds calm\nyes cyclonedds calm\nyes cyclonedds 2\n");
 }
 
+TEST_F(FaultTestCommand, TwoFlightsNeverHaveTheSameFolder) {
+  test_file("a", "finally result(score) == undisturbed_score", "expect: {same_digest: [again]}\n");
+  for (const std::string other : {"a-again", "without-faults-1"}) {
+    test_file(other, "always result(score) == 3");
+    try {
+      run();
+      ADD_FAILURE() << other;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("would both write to the folder " + other), std::string::npos)
+          << error.what();
+    }
+    std::filesystem::remove(programs_.dir() / "tests" / (other + ".yaml"));
+  }
+  EXPECT_EQ(flights(), "");
+}
+
 TEST_F(FaultTestCommand, ARepetitionWithAnotherDigestIsAFailure) {
   serve("${SKEIN_CHAOS:-calm}");
   test_file("a", "always result(score) == 3", "expect: {same_digest: [again, chaos]}\n");

@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include "core/types.hpp"
+
 namespace skein::cli {
 namespace {
 
@@ -45,13 +47,14 @@ class Planning {
   void add(const FaultTest& test) {
     const std::size_t index = planned_.tests.size();
     FlightsOfTest flights;
-    flights.own = add_flight({test.name, test.plan.options});
+    flights.own = add_flight({test.name, test.plan.options}, test.file.string());
     if (test.needs_fault_free()) flights.fault_free = fault_free(test);
     std::map<std::string, std::size_t> repeats;  // each way once
     for (const Repeat repeat : repeats_of(test, index)) {
       const std::string how = name_of(repeat);
       if (repeats.contains(how)) continue;
-      repeats[how] = add_flight(repeated({test.name + "-" + how, test.plan.options}, repeat, index + 1));
+      repeats[how] = add_flight(repeated({test.name + "-" + how, test.plan.options}, repeat, index + 1),
+                                "the repetition '" + how + "' of " + test.file.string());
     }
     flights.repeats.assign(repeats.begin(), repeats.end());
     planned_.tests.push_back(std::move(flights));
@@ -59,7 +62,13 @@ class Planning {
   FaultFlights planned() { return std::move(planned_); }
 
  private:
-  std::size_t add_flight(FaultFlight flight) {
+  /// @param what  is flown, for the message if another flight has the same name.
+  std::size_t add_flight(FaultFlight flight, const std::string& what) {
+    const auto [known, is_new] = names_.try_emplace(flight.name, what);
+    if (!is_new) {
+      throw InputError(what + " and " + known->second + " would both write to the folder " + flight.name +
+                       "; give one of the files another name");
+    }
     flight.options.out = std::filesystem::absolute(options_.out) / flight.name;
     planned_.flights.push_back(std::move(flight));
     return planned_.flights.size() - 1;
@@ -69,7 +78,7 @@ class Planning {
     FaultFlight flight{"without-faults-" + std::to_string(fault_free_.size() + 1), test.plan.options};
     flight.options.faults.reset();
     const auto [found, is_new] = fault_free_.try_emplace(what_is_flown(flight.options));
-    if (is_new) found->second = add_flight(std::move(flight));
+    if (is_new) found->second = add_flight(std::move(flight), "the run without faults for " + test.file.string());
     return found->second;
   }
 
@@ -87,6 +96,7 @@ class Planning {
   const std::vector<Repeat> asked_;
   FaultFlights planned_;
   std::map<std::string, std::size_t> fault_free_;  ///< by what is flown
+  std::map<std::string, std::string> names_;       ///< what flies under each name
 };
 
 }  // namespace

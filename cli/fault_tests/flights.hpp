@@ -31,6 +31,7 @@ struct FaultFlights {
   std::vector<FlightsOfTest> tests;  ///< in the order of the tests
 };
 
+/// @throws InputError when two flights would have the same folder, for example a repetition of a.yaml and a-again.yaml.
 FaultFlights plan_fault_flights(const std::vector<FaultTest>& tests, const TestOptions& options);
 
 /// A text that is the same for two runs if they are the same run without faults, whatever the DDS vendor.
