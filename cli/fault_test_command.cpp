@@ -3,7 +3,6 @@
 #include <chrono>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "cli/fault_tests/flights.hpp"
 #include "cli/fault_tests/report.hpp"
@@ -29,11 +28,10 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kTailLines = 5;
 
-/// Lets the programs themselves check what the tests fly. @throws InputError.
+/// Lets the programs themselves check what the tests fly: also tests of the same run, because each has its own faults.
+/// @throws InputError.
 void check_with_programs(const std::vector<FaultTest>& tests) {
-  std::set<std::string> checked;
   for (const FaultTest& test : tests) {
-    if (!checked.insert(what_is_flown(test.plan.options)).second) continue;
     const ScratchDir scratch;
     try {
       run_checks(check_programs(test.plan, scratch.path()));

@@ -106,6 +106,18 @@ TEST_F(FaultTestCommand, NothingFliesWhenAFileIsWrong) {
   EXPECT_EQ(flights(), "");
 }
 
+TEST_F(FaultTestCommand, TheProgramsCheckTheFaultsOfEachTest) {
+  test_file("a", "always result(score) == 3");
+  test_file("b", "always result(score) == 3");
+  write_script(programs_.dir() / "sim_server", "case \"$*\" in */b.yaml*) echo 'no such fault' >&2; exit 2;; esac");
+  try {
+    run();
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("b.yaml: run: no such fault"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(FaultTestCommand, TheRunWithoutFaultsIsFlownOnceForAllTests) {
   test_file("a", "finally result(score) == undisturbed_score");
   test_file("b", "finally result(score) == undisturbed_score");
