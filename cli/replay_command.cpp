@@ -85,8 +85,10 @@ bool check_export(const ReplayOptions& options) {
     throw InputError("--export " + file.string() + ": must end in .html (a page) or .mp4 (a film)");
   }
   const bool is_film = ending == ".mp4";
-  if (!is_film && (options.film.seconds || options.film.speed || !options.film.address.empty())) {
-    throw InputError("--export " + file.string() + ": --seconds, --speed and --from-address are for a film (.mp4)");
+  const FilmOptions& film = options.film;
+  if (!is_film && (film.fps || film.seconds || film.speed || !film.address.empty())) {
+    throw InputError("--export " + file.string() +
+                     ": --fps, --seconds, --speed and --from-address are for a film (.mp4)");
   }
   if (fs::is_directory(file) || (fs::exists(file) && !options.force)) {
     throw InputError("--export " + file.string() +

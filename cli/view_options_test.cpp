@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "cli/command_line.hpp"
 #include "cli/compose_options.hpp"
 #include "cli/replay_command.hpp"
@@ -35,6 +37,22 @@ TEST(ViewOptions, ReplayReadsAllItsOptions) {
     std::vector<std::string> words = {"replay", "a"};
     words.insert(words.end(), wrong.begin(), wrong.end());
     EXPECT_THROW(parse_command_line(words), InputError) << wrong.back();
+  }
+}
+
+TEST(ViewOptions, APageRefusesTheOptionsOfFilms) {
+  using Words = std::vector<std::string>;
+  for (const Words& of_film :
+       {Words{"--fps", "50"}, Words{"--seconds", "3"}, Words{"--speed", "2"}, Words{"--from-address", "#t=1"}}) {
+    Words words = {"replay", "no_run", "--export", "a.html"};
+    words.insert(words.end(), of_film.begin(), of_film.end());
+    std::ostringstream out, err;
+    try {
+      replay_run(read<ReplayOptions>(words), {out, err, false});
+      ADD_FAILURE() << of_film[0];
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("are for a film"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -110,7 +110,7 @@ FilmTimes::FilmTimes(const FilmOptions& options, double from_s, double end_s) : 
                      std::to_string(end_s) + " s");
   }
   const double speed = options.speed.value_or(flown_s / options.seconds.value_or(kUsualFilm_s));
-  each_s_ = speed / options.fps;
+  each_s_ = speed / options.fps.value_or(kUsualFps);
   const double pictures = std::ceil(flown_s / each_s_ - 1e-9) + 1.0;
   if (!(pictures <= kMostPictures)) {
     throw InputError("the film would have " + std::to_string(pictures) +
@@ -139,7 +139,8 @@ void write_film(const FilmPrograms& programs, const std::string& page, const Fil
   const Json shown = browser.evaluate("film.begin(" + Json(options.address).dump() + ")");
   const FilmTimes times(options, shown.at("from").get<double>(), shown.at("end").get<double>());
   const Draft draft(file);
-  PipedProgram ffmpeg(ffmpeg_spec(programs.ffmpeg, options.fps, draft.path(), scratch.path()), signals);
+  PipedProgram ffmpeg(ffmpeg_spec(programs.ffmpeg, options.fps.value_or(kUsualFps), draft.path(), scratch.path()),
+                      signals);
   for (std::size_t i = 0; i < times.size(); ++i) {
     browser.evaluate("film.show(" + Json(times[i]).dump() + ")");
     const std::vector<std::uint8_t> picture = browser.picture();

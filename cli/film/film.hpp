@@ -11,8 +11,9 @@
 
 namespace skein::cli {
 
-/// Default length of a film.
+/// Default length of a film, and its default number of frames per second.
 inline constexpr double kUsualFilm_s = 30.0;
+inline constexpr int kUsualFps = 25;
 
 /// The simulated times of the pictures [s].
 class FilmTimes {
