@@ -187,6 +187,14 @@ void compare_recordings(const DiffOptions& options, std::vector<std::string>& fo
   }
 }
 
+/// Runs with the same digests sent the same messages, so only damage of their recordings matters. @throws InputError
+void require_whole_recordings(const DiffOptions& options) {
+  if (only_owner(options, run_folder::kRecording)) return;
+  for (const fs::path& run : {options.run_a, options.run_b}) {
+    if (fs::exists(run / run_folder::kRecording)) mcap::Reader::whole(run / run_folder::kRecording);
+  }
+}
+
 }  // namespace
 
 void add_diff(CLI::App& app, DiffOptions& diff) {
@@ -214,9 +222,13 @@ int diff_runs(const DiffOptions& options, const Console& console) {
     console.out << "first difference at step " << difference->step << " (" << difference->time_s << " s):\n";
     for (const std::string& field : difference->fields) console.out << "  " << field << '\n';
   }
-  std::vector<std::string> said;
-  compare_recordings(options, said);
-  if (difference) found.insert(found.begin(), said.begin(), said.end());
+  if (difference) {
+    std::vector<std::string> said;
+    compare_recordings(options, said);
+    found.insert(found.begin(), said.begin(), said.end());
+  } else {
+    require_whole_recordings(options);
+  }
   if (difference && !found.empty()) console.out << "besides:\n";
   if (!difference && !found.empty()) console.out << "the digests are the same, but not what else the runs left:\n";
   for (const std::string& one : found) console.out << "  " << one << '\n';
