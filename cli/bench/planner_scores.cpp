@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <map>
 #include <tuple>
@@ -17,6 +18,8 @@ namespace {
 
 constexpr const char* kHeader = "scene,planner,score,points,collisions,frozen_uavs";
 
+constexpr double kMost = 1e9;  ///< largest number in a table: it fits into an int
+
 /// "wild" of "wild 3".
 std::string kind_of(const std::string& scene) { return scene.substr(0, scene.find(' ')); }
 
@@ -24,7 +27,7 @@ std::string kind_of(const std::string& scene) { return scene.substr(0, scene.fin
 struct Sum {
   int scenes = 0, only_before = 0, only_now = 0;  ///< in both tables, only in the old one, only in the new one
   double before = 0.0, now = 0.0;
-  int collisions_before = 0, collisions = 0, frozen_before = 0, frozen = 0;
+  std::int64_t collisions_before = 0, collisions = 0, frozen_before = 0, frozen = 0;
 };
 
 std::string change_text(const Sum& sum) {
@@ -74,9 +77,11 @@ std::vector<PlannerScore> read_planner_scores(const std::filesystem::path& file)
     std::vector<double> numbers;
     for (std::size_t i = 2; i < cells.size(); ++i) {
       const auto value = parse_number(cells[i]);
-      if (value && *value >= 0.0) numbers.push_back(*value);
+      if (value && *value >= 0.0 && *value <= kMost) numbers.push_back(*value);
     }
-    if (cells.size() != 6 || numbers.size() != 4) refuse("must be a scene, a planner and four numbers of at least 0");
+    if (cells.size() != 6 || numbers.size() != 4) {
+      refuse("must be a scene, a planner and four numbers within [0, 1000000000]");
+    }
     scores.push_back({cells[0], cells[1], numbers[0], static_cast<int>(numbers[1]), static_cast<int>(numbers[2]),
                       static_cast<int>(numbers[3])});
   }

@@ -39,7 +39,9 @@ TEST(PlannerScores, DamagedTablesAreNamedByLine) {
                                                      {"scene,score\n", "line 1"},
                                                      {header + "towers,kios,1,2,3,4\ntowers,kios,1,2,3\n", "line 3"},
                                                      {header + "towers,kios,x,2,3,4\n", "line 2"},
-                                                     {header + "towers,kios,-1,2,3,4\n", "line 2"}};
+                                                     {header + "towers,kios,-1,2,3,4\n", "line 2"},
+                                                     {header + "towers,kios,1,2,3e9,4\n", "line 2"},
+                                                     {header + "towers,kios,1,2,3,1e300\n", "line 2"}};
   for (const auto& [text, part] : tables) {
     std::ofstream(file) << text;
     try {
