@@ -35,7 +35,9 @@ class SensingBench {
     console_.err << "bench: flights at two sites" << std::endl;
     const std::filesystem::path log = scratch_.path() / run_folder::log_file(kProgram);
     const ExitStatus exit = run_to_end({kProgram, argv, fleet_environment(false), log});
-    console_.out << std::ifstream(log).rdbuf() << std::flush;
+    // Nothing to insert would count as an error of the console.
+    if (std::ifstream said(log); said.peek() != std::ifstream::traits_type::eof()) console_.out << said.rdbuf();
+    console_.out << std::flush;
     return exit.ok() && !failed_ ? kExitDone : kExitProcessFailed;
   }
 
