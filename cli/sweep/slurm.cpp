@@ -53,7 +53,7 @@ std::size_t max_array_size() {
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("MaxArraySize")) continue;
     const auto value = parse_number(line.substr(line.find_last_of("= ") + 1));
-    if (value && *value >= 2.0) return static_cast<std::size_t>(*value);
+    if (value && *value >= 2.0 && *value <= 1e9) return static_cast<std::size_t>(*value);
   }
   return kUsualArraySize;
 }
