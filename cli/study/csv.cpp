@@ -86,7 +86,8 @@ std::string totals_csv(const Study& study) {
   for (const std::uint64_t seed : study.seeds) csv += ",test_" + std::to_string(seed);
   csv += ",max,median,worst\n";
   for (const Standing& standing : standings(study)) {
-    csv += std::to_string(standing.place) + "," + cell(study.planners[standing.planner]) + "," + rank_name(study.rank);
+    csv += (standing.decides ? std::to_string(standing.place) : "") + "," + cell(study.planners[standing.planner]) +
+           "," + rank_name(study.rank);
     for (const std::optional<double>& total : standing.totals) csv += "," + number(total);
     const std::vector<double> totals = complete_totals(standing);
     const Spread spread = spread_of(totals);

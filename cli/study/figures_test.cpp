@@ -219,6 +219,7 @@ TEST(StudyFigures, EveryLineOfACsvFileHasAllColumns) {
   }
   EXPECT_NE(flights_csv(study).find("\"c,\"\"x\"\"\""), std::string::npos);
   EXPECT_NE(totals_csv(study).find("\n1,a,max,10,20,90,90,20,10\n"), std::string::npos) << totals_csv(study);
+  EXPECT_TRUE(totals_csv(study).ends_with("\n,\"c,\"\"x\"\"\",max,,,,,,\n")) << "no complete test, no place";
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ import pytest
 
 import skein
 from skein import columns
-from skein.tables import read_study_table, read_table
+from skein.tables import read_study_table, read_table, read_wide_table
 
 
 def documented(page: Path, file: str) -> list[tuple[str, str]]:
@@ -203,6 +203,13 @@ def test_whole_numbers_keep_all_digits(tmp_path: Path) -> None:
         (tmp_path / "flights.csv").write_text(f"{header}\ntowers,kios,{seed}{rest}\n")
         with pytest.raises(skein.DamagedError, match="flights.csv:2: seed must be a whole number"):
             read_study_table(tmp_path, columns.FLIGHTS)
+
+
+def test_a_planner_without_a_complete_test_has_no_place(tmp_path: Path) -> None:
+    rows = "place,planner,ranked_by,test_1,max,median,worst\n1,kios,max,5,5,5,5\n,star,max,,,,\n"
+    (tmp_path / "totals.csv").write_text(rows)
+    totals = read_wide_table(tmp_path, columns.TOTALS, 3, "test_[0-9]+")
+    assert np.array_equal(totals["place"], [1.0, np.nan], equal_nan=True)
 
 
 def test_a_cell_that_would_take_all_memory_is_refused(tmp_path: Path) -> None:
