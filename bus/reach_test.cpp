@@ -82,7 +82,7 @@ class ReachTest : public testing::Test {
 TEST_F(ReachTest, AKnownPeerIsUsedAndAnUnknownOneIsNamed) {
   const auto own = own_address();
   if (!own) GTEST_SKIP() << "this host has no address but the loopback's";
-  std::mt19937 random{std::random_device{}()};
+  std::mt19937 random{1};  // fixed, so that a failure can be repeated
   for (int round = 0; round < 20; ++round) {
     DomainNetwork network;
     Addresses asked;

@@ -14,6 +14,7 @@
 #include "host/supervisor.hpp"
 #include "host/testing/fake_programs.hpp"
 #include "process/host/environment.hpp"
+#include "tests/support/test_program.hpp"
 
 namespace skein::cli {
 namespace {
@@ -119,7 +120,7 @@ class HostileTexts : public testing::Test {
   }
 
   const FakePrograms programs_;
-  std::mt19937 random_{std::random_device{}()};
+  std::mt19937 random_{static_cast<unsigned>(turn_number())};  ///< other texts in each turn; SKEIN_TURN repeats them
 };
 
 TEST_F(HostileTexts, AreReadBackAsTheyWereGivenOrRefused) {
