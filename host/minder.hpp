@@ -15,7 +15,8 @@ bool become_minder(pid_t launcher);
 
 /// Waits until the program or the launcher has ended. Then kills all remaining descendants of this process, and ends as
 /// the program did, with the same exit code or by the same signal; with exit code 137 if the launcher ended first. If a
-/// signal stops the program, this process stops, too; to continue them, SIGCONT must go to both.
+/// signal stops the program, this process stops, too. To continue them, SIGCONT must go to both; SIGKILL to the program
+/// must be followed by SIGCONT to this process.
 [[noreturn]] void mind(pid_t program, pid_t launcher);
 
 }  // namespace skein::cli

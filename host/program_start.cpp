@@ -189,4 +189,11 @@ StartedProgram start_program(const ProgramSpec& spec) {
   return started;
 }
 
+// A minder stops by itself when its program does, but does not go on by itself, not even when its program ends.
+void signal_program(const StartedProgram& program, int signal) {
+  ::kill(-program.program, signal);
+  const bool is_minded = program.program != program.pid;
+  if (is_minded && (signal == SIGCONT || signal == SIGKILL)) ::kill(program.pid, SIGCONT);
+}
+
 }  // namespace skein::cli

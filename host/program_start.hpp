@@ -58,4 +58,8 @@ void reset_signals();
 /// @throws std::system_error if the log cannot be opened, or the binary cannot be started or watched.
 StartedProgram start_program(const ProgramSpec& spec);
 
+/// Sends a signal to a program's process group. A minder that has stopped with its program goes on after SIGCONT and
+/// SIGKILL.
+void signal_program(const StartedProgram& program, int signal);
+
 }  // namespace skein::cli

@@ -66,7 +66,6 @@ void SharedProcess::look_after_turns() {
   page_.give_reason(fmt::format("this program did not end its turn for {} s, and its process {}", patience_.count(),
                                 cli::has_stopped(page_.process()) ? "is stopped (SIGSTOP)" : "does not say why"));
   supervisor_.signal(process_.name, SIGKILL);
-  supervisor_.signal(process_.name, SIGCONT);  // the minder has stopped with the process, and must notice its end
 }
 
 void SharedProcess::send(const std::string& program, const std::string& line) {

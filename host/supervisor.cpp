@@ -125,7 +125,7 @@ Supervisor::Supervisor() {
 
 Supervisor::~Supervisor() {
   for (const auto& [name, child] : children_) {
-    ::kill(-child->program, SIGKILL);
+    signal_program(*child, SIGKILL);
     ::waitpid(child->pid, nullptr, 0);
     take_terminal_back(*child);
   }
@@ -254,7 +254,7 @@ void Supervisor::hang_up(const std::string& program) {
 
 void Supervisor::signal(const std::string& program, int signal) {
   const auto found = children_.find(program);
-  if (found != children_.end()) signal_child(*found->second, signal);
+  if (found != children_.end()) signal_program(*found->second, signal);
 }
 
 bool Supervisor::has_stopped(const std::string& program) {
@@ -274,18 +274,12 @@ void Supervisor::follow_job_control() {
     take_terminal_back(*child);
     ::raise(SIGSTOP);  // until the shell's `fg`
     if (owns_terminal()) give_terminal_to(child->program);
-    signal_child(*child, SIGCONT);
+    signal_program(*child, SIGCONT);
   }
 }
 
-// A minder stops by itself when its program does, but cannot wake itself.
-void Supervisor::signal_child(const Child& child, int signal) {
-  ::kill(-child.program, signal);
-  if (signal == SIGCONT && child.program != child.pid) ::kill(child.pid, signal);
-}
-
 void Supervisor::signal_all(int signal) {
-  for (const auto& [name, child] : children_) signal_child(*child, signal);
+  for (const auto& [name, child] : children_) signal_program(*child, signal);
 }
 
 std::vector<Event> Supervisor::end_all(std::chrono::milliseconds grace) {

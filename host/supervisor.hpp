@@ -59,7 +59,6 @@ class Supervisor final : public ProgramHost {
   /// As poll(), but trims the logs while it waits.
   int poll_and_trim(std::vector<pollfd>& polled, std::chrono::milliseconds limit) const;
   void reap(Child& child, std::vector<Event>& events);
-  static void signal_child(const Child& child, int signal);
   static void take_terminal_back(const Child& child);
   void signal_all(int signal);
 

@@ -182,6 +182,35 @@ TEST_F(SupervisorTest, AStoppedMindedProgramCanBeEnded) {
   EXPECT_TRUE(pipe.all_ended());
 }
 
+TEST_F(SupervisorTest, AStoppedMindedProgramCanBeKilled) {
+  ProgramSpec program = shell("a", "kill -STOP $$");
+  program.minded = true;
+  supervisor_.start(program);
+  ASSERT_TRUE(stops("a"));
+  supervisor_.signal("a", SIGKILL);
+  EXPECT_EQ(run_out().back().exit.signal, SIGKILL);
+}
+
+// A faulty destructor waits for ever, so another process calls it.
+TEST(SupervisorsEnd, KillsAStoppedMindedProgram) {
+  const pid_t launcher = ::fork();
+  if (launcher == 0) {
+    {
+      Supervisor supervisor;
+      ProgramSpec program{"a", {"/bin/sh", "-c", "kill -STOP $$"}, environment_with({}), {}};
+      program.minded = true;
+      supervisor.start(program);
+      eventually([&] { return supervisor.has_stopped("a"); }, kUntilNoticed);
+    }
+    ::_exit(0);
+  }
+  const bool has_ended = eventually([&] { return ::waitpid(launcher, nullptr, WNOHANG) == launcher; }, kUntilNoticed);
+  EXPECT_TRUE(has_ended);
+  if (has_ended) return;
+  ::kill(launcher, SIGKILL);
+  ::waitpid(launcher, nullptr, 0);
+}
+
 TEST_F(SupervisorTest, TheTerminalsSignalsBecomeAnEventAndDoNotReachThePrograms) {
   supervisor_.start(shell("a", "read line <&4; exit 0"));
   ::kill(::getpid(), SIGINT);

@@ -43,7 +43,7 @@ PipedProgram::PipedProgram(const ProgramSpec& spec, const HeldSignals& signals)
 
 PipedProgram::~PipedProgram() {
   if (program_.pid <= 0) return;
-  ::kill(-program_.program, SIGKILL);
+  signal_program(program_, SIGKILL);
   ::waitpid(program_.pid, nullptr, 0);  // its minder, which ends all remaining descendants
 }
 
