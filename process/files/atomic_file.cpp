@@ -70,8 +70,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
   };
   {
     const File file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
+    if (!file.is_open()) fail("write");
     if (readers == Readers::no_agents) close_to_agents(temporary);
-    if (!file.is_open() || !file.write(content)) fail("write");
+    if (!file.write(content)) fail("write");
     if (flush == Flush::to_disk && !file.sync()) fail("write");
   }
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("rename the temporary file of");

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include "core/files/file_bytes.hpp"
@@ -60,6 +61,18 @@ TEST_F(AtomicFile, LeavesNothingBehindWhenItFails) {
   fs::create_directory(folder_ / "taken");
   EXPECT_THROW(write_file_atomically(folder_ / "taken", "x"), std::runtime_error);
   EXPECT_EQ(files(), 1u);
+}
+
+// The link makes the reasons differ: open() does not find its target, and close_to_agents() follows no link.
+TEST_F(AtomicFile, AFileThatCannotBeCreatedIsReportedWithTheReasonOfOpen) {
+  const fs::path file = folder_ / "result.json";
+  fs::create_symlink(folder_ / "none" / "file", file.string() + ".tmp" + std::to_string(::getpid()));
+  try {
+    write_file_atomically(file, "x", Readers::no_agents);
+    ADD_FAILURE() << "the file cannot be created, but no error was reported";
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(error.code(), std::errc::no_such_file_or_directory) << error.what();
+  }
 }
 
 TEST_F(AtomicFile, AFileThatAnotherProgramWroteCanReplaceTheFormerOne) {
