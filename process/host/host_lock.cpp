@@ -46,7 +46,8 @@ std::optional<HostLock> HostLock::try_take(const std::string& name) {
     throw std::system_error(errno, std::generic_category(), "lock " + name);
   }
   // From here on the lock is held. No connection is ever accepted: the socket listens only so that holder() can connect
-  // and get the process id. Until it listens, holder() gets none, which only leaves the id out of a message.
+  // and get the process id. Until it listens, or when its queue is full of connections that have closed long ago,
+  // holder() gets none, which only leaves the id out of a message.
   if (::listen(lock.fd_, SOMAXCONN) != 0) throw std::system_error(errno, std::generic_category(), "lock " + name);
   return lock;
 }
