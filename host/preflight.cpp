@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <stdexcept>
@@ -105,6 +106,21 @@ int hand_over(const ProgramSpec& program) {
 }
 
 ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}, {}).at(program.name); }
+
+std::optional<ExitStatus> run_within(const ProgramSpec& program, std::chrono::milliseconds limit) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point deadline = Clock::now() + limit;
+  Supervisor supervisor;
+  supervisor.start(program);
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) return std::nullopt;  // the supervisor kills the program
+    for (const Event& event : supervisor.wait(left)) {
+      if (event.kind == Event::Kind::interrupt) throw Interrupted{};
+      if (event.kind == Event::Kind::exited) return event.exit;
+    }
+  }
+}
 
 ScratchDir::ScratchDir() {
   std::error_code error;

@@ -2,8 +2,10 @@
 // Threads: the launcher's one.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,9 @@ std::vector<std::string> run_checks(const std::vector<ProgramSpec>& programs, co
 
 /// Runs one program and waits for its end. If the user presses Ctrl-C, ends it and throws Interrupted.
 ExitStatus run_to_end(const ProgramSpec& program);
+
+/// The same, but kills a program that has not ended within the limit, and returns nullopt then.
+std::optional<ExitStatus> run_within(const ProgramSpec& program, std::chrono::milliseconds limit);
 
 /// Runs the program that does a command's work. @returns the command's exit code: that of the program, or
 /// kExitProcessFailed if a signal ended it or its code is not one of 0 to kExitBadInput. @throws Interrupted.

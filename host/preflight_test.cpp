@@ -11,6 +11,8 @@
 #include <random>
 
 #include "host/testing/fake_programs.hpp"
+#include "process/host/environment.hpp"
+#include "tests/support/eventually.hpp"
 
 namespace skein::cli {
 namespace {
@@ -85,6 +87,14 @@ TEST(ScratchDir, FoldersInUseAndFilesOfOthersStay) {
   EXPECT_EQ(read_text(mine.path() / "key"), "x");
   EXPECT_TRUE(fs::exists(tmpdir.path() / "skein-notes") && fs::exists(tmpdir.path() / "skein-scratch-file"));
   EXPECT_TRUE(fs::exists(tmpdir.path() / "elsewhere" / "kept"));
+}
+
+TEST(RunWithin, AProgramThatDoesNotEndIsKilled) {
+  const auto shell = [](const std::string& script) {
+    return ProgramSpec{"a", {"/bin/sh", "-c", script}, environment_with({}), {}};
+  };
+  EXPECT_EQ(run_within(shell("exit 3"), kPatience).value_or(ExitStatus{}).code, 3);
+  EXPECT_FALSE(run_within(shell("trap '' TERM; while :; do sleep 1000; done"), std::chrono::milliseconds(100)));
 }
 
 }  // namespace

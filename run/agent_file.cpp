@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <map>
 
@@ -20,18 +21,27 @@ namespace skein::cli {
 namespace {
 
 constexpr std::size_t kTailLines = 5;
+/// Far longer than any agent needs to list its planners, also on a busy machine.
+constexpr std::chrono::seconds kListTime{30};
 
-/// Has an agent program list its strategies. @param said  file for its output. @returns nullopt if that is not a list.
-std::optional<StrategyList> strategies_of(const std::filesystem::path& agent, const std::filesystem::path& said) {
-  if (!std::filesystem::exists(agent)) return std::nullopt;
-  run_to_end({programs::kAgent, {agent, "--list-planners"}, fleet_environment(false), said});
+struct Answer {
+  bool in_time = true;
+  std::optional<StrategyList> list = {};  ///< nullopt: the program's output is not a list
+};
+
+/// Has an agent program list its strategies. @param said  file for its output
+Answer answer_of(const std::filesystem::path& agent, const std::filesystem::path& said) {
+  if (!std::filesystem::exists(agent)) return {};
+  if (!run_within({programs::kAgent, {agent, "--list-planners"}, fleet_environment(false), said}, kListTime)) {
+    return {.in_time = false};
+  }
   const Json list = read_json(said);
-  return list.is_object() ? std::optional(struct_of<StrategyList>(list)) : std::nullopt;
+  return {.list = list.is_object() ? std::optional(struct_of<StrategyList>(list)) : std::nullopt};
 }
 
 StrategyList strategies_of(const std::filesystem::path& agent) {
   const ScratchDir scratch;
-  return strategies_of(agent, scratch.path() / "said").value_or(StrategyList{});
+  return answer_of(agent, scratch.path() / "said").list.value_or(StrategyList{});
 }
 
 std::filesystem::path stock_agent() { return program_dir() / programs::kAgent; }
@@ -46,8 +56,11 @@ std::filesystem::path checked_agent(const std::filesystem::path& named, const st
   if (::access(agent.c_str(), X_OK) != 0) throw InputError(what + ": this file cannot be executed");
   if (std::error_code none; std::filesystem::equivalent(agent, stock_agent(), none)) return stock_agent();
   const ScratchDir scratch;
-  if (strategies_of(agent, scratch.path() / "said")) return agent;
-  throw InputError(what + ": --list-planners does not list its planners; skein_add_agent() makes agent programs " +
+  const Answer answer = answer_of(agent, scratch.path() / "said");
+  if (answer.list) return agent;
+  const std::string wrong =
+      answer.in_time ? "does not list its planners" : "did not end within " + std::to_string(kListTime.count()) + " s";
+  throw InputError(what + ": --list-planners " + wrong + "; skein_add_agent() makes agent programs " +
                    "(docs/how-to-add-a-planner.md), and a program of another kind flies with --planner exec:CMD" +
                    last_lines_below(scratch.path() / "said", kTailLines));
 }
