@@ -15,7 +15,11 @@ namespace skein::cli {
 /// them, so it must come before the break. @param result  result.json. @returns nullopt: it never happened.
 std::optional<double> event_time_s(const Json& result, const std::string& member, const std::string& what);
 
-/// The result of an earlier run. @throws InputError if there is none, or it has another scenario, seed or planner
+/// The first input in which an earlier run differs from a plan: "another seed", "other faults"; empty: none is known.
+/// Of faults, a result has neither the strength nor the links.
+std::string other_input(const Json& result, const FleetPlan& plan);
+
+/// The result of an earlier run. @throws InputError if there is none, or other_input() names one
 Json result_of_same_flight(const std::filesystem::path& run, const FleetPlan& plan);
 
 }  // namespace skein::cli

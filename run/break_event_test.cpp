@@ -33,5 +33,42 @@ TEST(BreakEvent, AnEventThatNeverHappenedHasNoTime) {
   }
 }
 
+TEST(BreakEvent, ARunWithAnotherInputIsNotTheSameFlight) {
+  FleetPlan plan{{}, {}, {}, {}, {}};
+  plan.options.scenario = "towers";
+  plan.options.seed = 7;
+  plan.scenario.scene.scene_seed = 3;
+  plan.scenario.fleet.resize(2);
+  plan.scenario.fleet[0].name = "a";
+  plan.scenario.fleet[1].name = "b";
+  plan.scenario.rules.preset = "paper";
+  plan.planners = {{"a", "kios"}, {"b", "hover"}};
+  plan.faults.faults = {{.at_s = 2.5, .until_s = 4.0, .action = Kill{"a"}},
+                        {.at_s = 1.0, .until_s = {}, .action = Blackout{"b"}, .when = FaultCondition{"score > 1"}}};
+  const Json same = Json::parse(R"({
+    "scenario": "towers", "seed": 7, "scene_seed": 3, "rules": "paper", "uavs": [{"name": "a"}, {"name": "b"}],
+    "planner": {"a": "kios", "b": "hover", "gcs": "kios"},
+    "faults": [{"kind": "kill", "target": "a", "at_s": 2.5, "until_s": 4.0},
+               {"kind": "blackout", "target": "b", "at_s": 9.75, "until_s": null, "when": "score > 1"}]
+  })");
+  EXPECT_EQ(other_input(same, plan), "");
+  const auto other = [&](const char* key, const char* value) {
+    Json result = same;
+    result[key] = Json::parse(value);
+    return other_input(result, plan);
+  };
+  EXPECT_EQ(other("scenario", R"("hangar")"), "another scenario");
+  EXPECT_EQ(other("seed", "8"), "another seed");
+  EXPECT_EQ(other("scene_seed", "4"), "another scene seed");
+  EXPECT_EQ(other("uavs", R"([{"name": "a"}, {"name": "b"}, {"name": "c"}])"), "another fleet");
+  EXPECT_EQ(other("planner", R"({"a": "kios", "b": "patrol"})"), "another planner of b");
+  EXPECT_EQ(other("rules", R"("contest")"), "other rules");
+  EXPECT_EQ(other("conditions", R"("breezy")"), "other conditions");
+  EXPECT_EQ(other("faults", "[]"), "other faults");
+  Json late = same;
+  late["faults"][0]["at_s"] = 2.6;
+  EXPECT_EQ(other_input(late, plan), "other faults");
+}
+
 }  // namespace
 }  // namespace skein::cli
