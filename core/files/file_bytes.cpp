@@ -28,8 +28,11 @@ std::string read_file_bytes(const std::filesystem::path& file, std::uintmax_t mo
   if (::fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) throw refuse("not a regular file");
   const auto size = static_cast<std::uintmax_t>(status.st_size);
   if (size > most_bytes) {
-    throw refuse("has " + std::to_string(size >> 20) + " MB, more than the " + std::to_string(most_bytes >> 20) +
-                 " MB that are accepted");
+    const bool in_mb = most_bytes >= 1 << 20;
+    const auto amount = [&](std::uintmax_t bytes) {
+      return std::to_string(bytes >> (in_mb ? 20 : 10)) + (in_mb ? " MB" : " kB");
+    };
+    throw refuse("has " + amount(size) + ", more than the " + amount(most_bytes) + " that are accepted");
   }
   std::string bytes(static_cast<std::size_t>(size), '\0');
   for (std::size_t taken = 0; taken < bytes.size();) {

@@ -54,6 +54,9 @@ TEST_F(FileBytes, APathThatIsNoRegularFileIsRefusedAtOnceAndNamed) {
 
 TEST_F(FileBytes, AFileThatIsTooLargeIsRefusedBeforeItIsRead) {
   EXPECT_NE(complaint([&] { read_file_bytes(folder_ / "hole", 1 << 20); }).find("1048576 MB"), std::string::npos);
+  fs::resize_file(folder_ / "text", 5000);
+  EXPECT_EQ(complaint([&] { read_file_bytes(folder_ / "text", 2048); }),
+            (folder_ / "text").string() + ": has 4 kB, more than the 2 kB that are accepted");
   std::ifstream hole = open_text(folder_ / "hole");
   std::string line;
   EXPECT_NE(complaint([&] { next_line(hole, line, folder_ / "hole"); }).find("it is not text"), std::string::npos);
