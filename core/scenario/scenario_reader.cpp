@@ -142,10 +142,10 @@ void check_radio(const ScenarioFile& file, ConfigErrors& errors) {
   const std::set<std::string> known(nodes.begin(), nodes.end());
   const auto check_nodes = [&](const std::string& key, const std::vector<std::string>& named) {
     errors.check(!named.empty(), key, "must name at least one node, or be the word all");
-    const bool all = named.size() == 1 && named[0] == "all";
+    if (std::ranges::find(named, "all") != named.end()) return;  // check_routes() refuses it beside other names
     std::set<std::string> seen;
     for (const std::string& node : named) {
-      if (!all && !known.contains(node)) {
+      if (!known.contains(node)) {
         errors.check(false, key, "there is no node '" + node + "'; " + suggestion(node, nodes));
       }
       errors.check(seen.insert(node).second, key, "'" + node + "' is named twice");
