@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +12,8 @@
 #include <functional>
 #include <memory>
 #include <string>
+
+#include "tests/support/eventually.hpp"
 
 namespace skein {
 namespace {
@@ -122,6 +125,7 @@ TEST_P(Keeper, AProgramThatWasAskedToEndIsNotRestarted) {
 }
 
 TEST_P(Keeper, KillingTheKeeperKillsTheProgram) {
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // makes the program a child of this process when the keeper is dead
   const int status = keep(
       [&](int) {
         shared_->ready = true;
@@ -133,10 +137,11 @@ TEST_P(Keeper, KillingTheKeeperKillsTheProgram) {
         while (!shared_->ready) ::sched_yield();
         ::kill(keeper, SIGKILL);
       });
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
   SKIP_WITHOUT_RIGHTS(status);
   EXPECT_EQ(status, 200 + SIGKILL);
   if (GetParam()) return;  // the kernel ends the namespace with its first process
-  while (::kill(shared_->worker, 0) == 0) ::sched_yield();
+  EXPECT_TRUE(eventually([&] { return ::waitpid(shared_->worker, nullptr, WNOHANG) == shared_->worker; }));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfAnyPlace, Keeper, testing::Values(false, true), [](const auto& place) {
