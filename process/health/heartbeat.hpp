@@ -9,15 +9,15 @@ namespace skein {
 
 class Heartbeat {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// @param file  empty: no heartbeat. If the file cannot be written, there is no error message.
   explicit Heartbeat(std::filesystem::path file) : file_(std::move(file)) {}
 
   /// Call it in each turn; touches the file at most every two seconds.
-  void beat();
+  void beat(Clock::time_point now = Clock::now());
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   const std::filesystem::path file_;
   Clock::time_point next_{};
 };
