@@ -103,9 +103,10 @@ TEST(JsonFields, AMissingKeyOrAValueOfAnotherKindLeavesTheDefault) {
     for (const Json& odd : wrong) {
       Json damaged = good;
       damaged[key] = odd;
-      const Whole read = struct_of<Whole>(damaged);  // must not throw
-      if (odd.is_null()) {
-        EXPECT_EQ(nlohmann::json(json_of(read)), expected) << key;
+      const Whole read = struct_of<Whole>(damaged);                      // must not throw
+      const bool may_fit = odd.type() == value.type() && key != "role";  // a role is a text, but one of a few
+      if (!may_fit) {
+        EXPECT_EQ(nlohmann::json(json_of(read)), expected) << key << ": " << odd;
       }
     }
   }
