@@ -56,13 +56,16 @@ Listener::Listener(const Endpoint& endpoint) {
   SocketAddress address = address_of(endpoint);
   fd_ = ::socket(address.storage.ss_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int yes = 1;  // connections of a former page on this port may linger
-  ::setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  if (::bind(fd_, address.get(), address.size) == 0 && ::listen(fd_, kWaiting) == 0) return;
+  if (fd_ >= 0 && ::setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes) == 0 &&
+      ::bind(fd_, address.get(), address.size) == 0 && ::listen(fd_, kWaiting) == 0) {
+    return;
+  }
   const int reason = errno;
-  ::close(fd_);
-  throw InputError(
-      "--view " + endpoint.text() + ": no page can be served there (" + std::strerror(reason) + "); " +
-      (reason == EADDRNOTAVAIL ? "choose an address of this host" : "choose another port, or 0 for one that is free"));
+  if (fd_ >= 0) ::close(fd_);
+  throw InputError("--view " + endpoint.text() + ": no page can be served there (" + std::strerror(reason) + "); " +
+                   (reason == EADDRNOTAVAIL || reason == EAFNOSUPPORT
+                        ? "choose an address of this host"
+                        : "choose another port, or 0 for one that is free"));
 }
 
 Listener::~Listener() { ::close(fd_); }

@@ -2,6 +2,7 @@
 #include "view/server.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <random>
 
@@ -252,6 +253,21 @@ TEST(Listeners, AreOnTheLoopbackAndOnFreePorts) {
   EXPECT_THROW(Listener elsewhere(Endpoint{"192.0.2.7", 0}), InputError) << "the address belongs to another host";
   EXPECT_THROW(endpoint_of(0), InputError);
   EXPECT_THROW(endpoint_of(-1), InputError);
+}
+
+TEST(Listeners, NameTheReasonIfThereIsNoSocket) {
+  rlimit usual{};
+  ::getrlimit(RLIMIT_NOFILE, &usual);
+  const rlimit none{0, usual.rlim_max};
+  std::string said;
+  ::setrlimit(RLIMIT_NOFILE, &none);
+  try {
+    const Listener listener(0);
+  } catch (const InputError& error) {
+    said = error.what();
+  }
+  ::setrlimit(RLIMIT_NOFILE, &usual);
+  EXPECT_NE(said.find("(Too many open files)"), std::string::npos) << said;
 }
 
 TEST(Listeners, ListenAtTheGivenAddress) {
