@@ -22,9 +22,9 @@ bool same_scene(const RunRecord& a, const RunRecord& b) {
 }
 
 std::string scene_name(const RunRecord& run) {
-  const auto seed = number_if_any(run.result, "scene_seed");
-  return text_in(run.result, "scenario") + (seed ? " with scene seed " + std::to_string(std::lround(*seed)) : "") +
-         ", " + std::to_string(run.points.size()) + " points";
+  const Json seed = value_or(run.result, "scene_seed", Json());
+  return text_in(run.result, "scenario") + (seed.is_number_integer() ? " with scene seed " + seed.dump() : "") + ", " +
+         std::to_string(run.points.size()) + " points";
 }
 
 Json parting_json(const Parting& parting) {

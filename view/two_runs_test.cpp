@@ -64,5 +64,18 @@ TEST_F(TwoRuns, AreRefusedIfTheirScenesDiffer) {
   EXPECT_THROW(told(), InputError);
 }
 
+TEST_F(TwoRuns, AreRefusedWithTheWholeNumbersOfTheirScenes) {
+  b_.write("score.csv", "index,x,y,z,nx,ny,nz,score\n0,1,2,3,0,0,1,0.877\n");
+  b_.write("result.json", R"({"scenario": "wild", "scene_seed": 18446744073709551615, "status": "completed",
+                               "sim_time_s": 3.0, "uavs": [{"name": "b", "role": "explorer"}]})");
+  try {
+    told();
+    ADD_FAILURE() << "two scenes were accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("wild with scene seed 18446744073709551615, 1 points"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace skein::view
