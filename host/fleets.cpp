@@ -7,6 +7,7 @@
 
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "core/text/whole_number.hpp"
 #include "core/types.hpp"
 #include "host/proc_table.hpp"
 #include "host/supervisor.hpp"
@@ -49,10 +50,10 @@ bool has_variables(pid_t pid, const std::string& uav, const std::string& out) {
 
 void read_server(pid_t pid, const Words& words, RunningFleet& fleet) {
   fleet.scenario = value_after(words, "--scenario");
-  fleet.base_domain = static_cast<int>(number_or(value_after(words, "--domain"), 0.0));
+  fleet.base_domain = parse_whole<int>(value_after(words, "--domain")).value_or(0);
   fleet.agent_timeout_s = number_or(value_after(words, "--agent-timeout"), fleet.agent_timeout_s);
   fleet.lease_s = number_or(value_after(words, "--lease"), fleet.lease_s);
-  if (const auto uavs = parse_number(value_after(words, "--uavs"))) fleet.uavs = static_cast<std::size_t>(*uavs);
+  if (const auto uavs = parse_whole<std::size_t>(value_after(words, "--uavs"))) fleet.uavs = *uavs;
   fleet.network = value_after(words, "--network");
   fleet.elsewhere = !shares_network(pid);
   if (!fleet.elsewhere) fleet.launcher = HostLock::holder(domain_lock_name(fleet.base_domain));

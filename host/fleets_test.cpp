@@ -138,6 +138,14 @@ TEST_F(FleetsTest, OptionsThatAreNotGivenHaveTheirDefaults) {
   EXPECT_TRUE(fleet->keys.empty());
 }
 
+TEST_F(FleetsTest, NumbersThatNoFleetCanHaveAreLeftOut) {
+  const Sham server(words("sim_server", {"--domain", "1e300", "--uavs", "-1"}));
+  const auto fleet = found();
+  ASSERT_TRUE(fleet);
+  EXPECT_EQ(fleet->base_domain, RunningFleet().base_domain);
+  EXPECT_EQ(fleet->uavs, std::nullopt);
+}
+
 TEST_F(FleetsTest, TheLauncherIsTheHolderOfTheDomain) {
   const Sham server(words("sim_server", {"--domain", std::to_string(own_domain())}));
   EXPECT_EQ(found().value().launcher, std::nullopt);
