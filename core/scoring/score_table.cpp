@@ -71,7 +71,7 @@ std::vector<TallyChange> ScoreTable::add(const CaptureReport& report) {
 
 std::vector<TallyChange> ScoreTable::collide(UavIndex uav) {
   std::vector<TallyChange> changes;
-  if (!collision_voids_ || void_.at(uav)) {
+  if (void_.at(uav) || !collision_voids_) {
     return changes;
   }
   void_[uav] = true;

@@ -165,6 +165,9 @@ TEST(ScoreTable, RefusesUnknownUavsAndPoints) {
   EXPECT_THROW(table.add({UavIndex{2}, 0, 0, 0, {}}), std::out_of_range);
   EXPECT_THROW(table.add({UavIndex{0}, 0, 0, 0, {{0, 1.0F, 1.0F, 1.0F}, {3, 1.0F, 1.0F, 1.0F}}}), std::out_of_range);
   EXPECT_THROW(table.collide(UavIndex{2}), std::out_of_range);
+  RulesConfig lenient;
+  lenient.collision_voids_score = false;
+  EXPECT_THROW(ScoreTable(2, 3, lenient).collide(UavIndex{2}), std::out_of_range);
   EXPECT_EQ(table.score(), 0.0) << "a bad report must leave nothing behind";
 }
 
