@@ -7,6 +7,7 @@
 #include "core/planners/python_spec.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
+#include "core/text/utf8.hpp"
 #include "results/from_nodes.hpp"
 #include "results/losses.hpp"
 #include "results/run_folder.hpp"
@@ -52,7 +53,7 @@ void print_uavs(std::ostream& out, const Json& result) {
   for (const Json& uav : result["uavs"]) {
     const std::string name = uav["name"];
     std::string planner = without_folders(result["planner"][name]);
-    if (planner.size() > kLongestPlanner) planner = planner.substr(0, kLongestPlanner - 2) + "..";
+    if (planner.size() > kLongestPlanner) planner = first_bytes(planner, kLongestPlanner - 2) + "..";
     rows.push_back({name, uav["role"], planner, results::uav_state(uav, faults),
                     cell(result["score_by_uav"], name.c_str(), 3), cell(uav, "captures", 0), cell(uav, "distance_m", 1),
                     cell(uav, "idle_s", 1)});

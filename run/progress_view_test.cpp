@@ -148,6 +148,20 @@ TEST(ProgressView, AUavWhoseProgramIsLostIsNotInContact) {
   EXPECT_NE(out.str().find("in contact: beta, lost: alpha\n"), std::string::npos) << out.str();
 }
 
+TEST(Summary, ALongPlannerIsCutBetweenTwoLetters) {
+  const std::string letters(26, 'a');
+  const Json result = {{"status", "completed"},
+                       {"collisions", Json::array()},
+                       {"digest", nullptr},
+                       {"uavs", Json::parse(R"([{"name": "ada", "role": "explorer"}])")},
+                       {"planner", {{"ada", "py:" + letters + "\u00e9\u00e9.py"}}},
+                       {"score_by_uav", Json::object()},
+                       {"warnings", Json::array()}};
+  std::ostringstream out;
+  print_summary(out, result, "there");
+  EXPECT_NE(out.str().find(" py:" + letters + ".. "), std::string::npos) << out.str();
+}
+
 TEST(ProgressView, TheTableShowsThatAProgramIsLost) {
   const Json uavs = Json::parse(R"([{"name": "ada", "role": "explorer", "alive": true, "program_lost": true},
                                     {"name": "bob", "role": "explorer", "alive": true, "program_lost": false},
