@@ -1,7 +1,6 @@
 #include "run/exec_variables.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -20,14 +19,17 @@ namespace {
 /// ROS names of a node's radio topics, separated by spaces: those on which it may send, and those that arrive at it.
 /// Leaves out the topics of capture reports and their acknowledgements, which need no mention.
 std::pair<std::string, std::string> radio_topics_of(const Scenario& scenario, Node node) {
+  const auto is_custody = [](const NodeTopic& topic) {
+    return topic.ros_type == kCapturesType || topic.ros_type == kCapturesAckType;
+  };
   std::vector<std::string> sends, hears;
-  for (const RadioRoute& route : radio_routes(scenario)) {
-    if (route.ros_type == kCapturesType || route.ros_type == kCapturesAckType) continue;
-    if (route.source == node) sends.push_back(route.ros_topic);
-    for (const RadioTarget& target : route.targets) {
-      const std::string name = target.topic.substr(std::string_view("rt").size());
-      if (target.node == node && std::ranges::find(hears, name) == hears.end()) hears.push_back(name);
-    }
+  const NodeTopics topics = node_topics(scenario, node);
+  for (const NodeTopic& topic : topics.sent) {
+    if (!is_custody(topic)) sends.push_back(topic.ros_topic);
+  }
+  for (const NodeTopic& topic : topics.arriving) {
+    const std::string name = arrival_topic(topic.ros_topic, scenario.node_name(node));
+    if (!is_custody(topic) && std::ranges::find(hears, name) == hears.end()) hears.push_back(name);
   }
   return {joined(sends, " "), joined(hears, " ")};
 }

@@ -41,8 +41,6 @@ class LivePage {
   void show(view::Feed& feed, const std::string& title);
 
  private:
-  std::string address() const;
-
   const std::filesystem::path script_;  ///< found before anything flies, since it may be missing
   std::optional<view::Listener> listener_;
   const view::Endpoint endpoint_;

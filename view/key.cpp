@@ -5,31 +5,27 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
 #include "core/files/file_bytes.hpp"
+#include "core/text/sha256.hpp"
 #include "core/types.hpp"
 
 namespace skein::view {
 namespace {
 
 constexpr std::size_t kBytes = 32;
-constexpr std::string_view kDigits = "0123456789abcdef";
 
 }  // namespace
 
 Key Key::draw() {
-  std::array<unsigned char, kBytes> bytes{};
+  std::array<std::uint8_t, kBytes> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
     throw std::runtime_error(std::string("no random numbers: ") + std::strerror(errno));
   }
-  std::string text;
-  for (const unsigned char byte : bytes) {
-    text += kDigits[byte >> 4];
-    text += kDigits[byte & 15];
-  }
-  return Key(std::move(text));
+  return Key(to_hex(bytes));
 }
 
 Key Key::read_from(const std::filesystem::path& file) {
@@ -39,7 +35,7 @@ Key Key::read_from(const std::filesystem::path& file) {
   }
   std::string text = read_file_bytes(file, 1024);
   while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (text.size() != 2 * kBytes || text.find_first_not_of(kDigits) != std::string::npos) {
+  if (text.size() != 2 * kBytes || text.find_first_not_of("0123456789abcdef") != std::string::npos) {
     throw InputError(file.string() + ": is not a key of a page");
   }
   return Key(std::move(text));
