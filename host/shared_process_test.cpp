@@ -109,7 +109,8 @@ TEST_F(SharedProcessTest, AnEndlessLogKeepsItsBeginningAndItsEnd) {
   const std::string text = read_text(log);
   EXPECT_LE(text.size(), kMostLog);
   EXPECT_TRUE(text.starts_with("first\n"));
-  EXPECT_NE(text.find("\n[skein] what stood here is left out: the log has more than 2 MiB\n"), std::string::npos);
+  EXPECT_NE(text.find("\n[skein] the middle of this log was removed, because it has more than 2 MiB\n"),
+            std::string::npos);
 }
 
 TEST_F(SharedProcessTest, ADeathThatNoProgramCausedIsReportedForTheProcess) {

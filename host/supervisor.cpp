@@ -44,8 +44,8 @@ bool is_ignored(int signal) {
 void trim_log(int log, std::uint64_t most_bytes) {
   struct stat file {};
   if (log < 0 || ::fstat(log, &file) != 0 || static_cast<std::uint64_t>(file.st_size) <= most_bytes) return;
-  std::string end =
-      "\n[skein] what stood here is left out: the log has more than " + std::to_string(most_bytes >> 20) + " MiB\n";
+  std::string end = "\n[skein] the middle of this log was removed, because it has more than " +
+                    std::to_string(most_bytes >> 20) + " MiB\n";
   const std::size_t note = end.size();
   end.resize(note + kLogTail);
   const ssize_t tail = ::pread(log, end.data() + note, kLogTail, file.st_size - static_cast<off_t>(kLogTail));

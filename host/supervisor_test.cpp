@@ -320,7 +320,7 @@ TEST_F(SupervisorTest, AnEndlessLogKeepsItsBeginningAndItsEnd) {
   EXPECT_EQ(first, "first");
   EXPECT_EQ(last_lines(spec.log, 1), std::vector<std::string>{"last"});
   EXPECT_LE(std::filesystem::file_size(spec.log), std::uintmax_t{2 << 20});
-  EXPECT_NE(read_text(spec.log).find("\n[skein] what stood here is left out: the log has more than 2 MiB\n"),
+  EXPECT_NE(read_text(spec.log).find("\n[skein] the middle of this log was removed, because it has more than 2 MiB\n"),
             std::string::npos);
 }
 

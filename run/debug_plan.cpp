@@ -33,7 +33,8 @@ std::vector<Debuggee> debuggees(const FleetPlan& plan) {
       throw InputError(why + ": with --secure say no more than the UAV, and start it by the command that is printed");
     }
     if (plan.options.break_at_s && one.program == programs::kSimServer) {
-      throw InputError("--break-at: sim_server makes the time that others stop at; break in its own code");
+      throw InputError(
+          "--break-at: sim_server advances the time itself, so it cannot stop at a time; set a breakpoint in its code");
     }
     const bool in_python = programs::is_agent(one.program) && one.program != programs::kGroundAgent &&
                            python_spec(planner_of(plan, one.program).spec).has_value();

@@ -103,7 +103,7 @@ Planners parse_planners(const std::string& text, const std::vector<std::string>&
   if (const auto found = named.find(ground); found != named.end()) {
     planners.ground = read_planner(text, ground, found->second);
     const bool is_none = planners.ground->spec == kNoGround;
-    if (is_none && planners.ground->agent) throw wrong(text, "nothing is of no agent program; write gcs=none");
+    if (is_none && planners.ground->agent) throw wrong(text, "'none' takes no agent program; write gcs=none");
   }
   return planners;
 }

@@ -170,7 +170,8 @@ Json scene_of(const RunRecord& run) {
     }
   }
   if (!std::ranges::all_of(run.cameras, [](const auto& camera) { return camera.has_value(); })) {
-    missing.emplace_back("It does not tell which cameras the vehicles had: the usual one is drawn.");
+    missing.emplace_back(
+        "The recorded scene does not name the vehicles' cameras, so the page draws the default camera.");
   }
   if (!fs::exists(run.dir / run_folder::kActivity)) {
     missing.emplace_back("There is no activity.csv: the page derives what UAVs do from their motion.");

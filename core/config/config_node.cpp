@@ -127,7 +127,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void take_key(Open& parent, const ConfigNode& node) {
     if (node.kind != ConfigNode::Kind::scalar) fail(node.line, "a key must be a plain word");
     if (node.scalar.size() > kLongestKey || node.scalar.find('\n') != std::string::npos) {
-      fail(node.line, "a key this long is none; is there a quote or a colon too many above?");
+      fail(node.line, "this key is too long to be one; is there a quote or a colon too many above?");
     }
     const auto [first, is_new] = parent.lines.emplace(node.scalar, node.line);
     if (!is_new) {

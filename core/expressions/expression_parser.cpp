@@ -43,7 +43,7 @@ Expression combined(Op op, Expression a, Expression b) {
 }
 
 Expression joined_conditions(Op op, const char* word, Expression a, Expression b) {
-  const std::string where = "what stands beside '" + std::string(word) + "'";
+  const std::string where = "each side of '" + std::string(word) + "'";
   expect_condition(a, where);
   expect_condition(b, where);
   const bool certain = a.is_certain && b.is_certain;
@@ -146,9 +146,9 @@ Expression ExpressionParser::sum() {
   for (;;) {
     const bool plus = accept_mark("+");
     if (!plus && !accept_mark("-")) return left;
-    expect_number(left, "what is added");
+    expect_number(left, "each term of a sum");
     Expression right = product();
-    expect_number(right, "what is added");
+    expect_number(right, "each term of a sum");
     expect_same_unit(left, right);
     left = combined(plus ? Op::add : Op::subtract, std::move(left), std::move(right));
   }
@@ -159,9 +159,9 @@ Expression ExpressionParser::product() {
   for (;;) {
     const bool times = accept_mark("*");
     if (!times && !accept_mark("/")) return left;
-    expect_number(left, "what is multiplied");
+    expect_number(left, "each factor of a product");
     Expression right = signed_number();
-    expect_number(right, "what is multiplied");
+    expect_number(right, "each factor of a product");
     if (!times && is_constant(right) && number_at(right, {}) == 0.0) fail(right.at, "nothing can be divided by 0");
     const Unit unit = times ? left.unit * right.unit : left.unit / right.unit;
     left = combined(times ? Op::multiply : Op::divide, std::move(left), std::move(right));
@@ -215,7 +215,7 @@ Expression ExpressionParser::function(Op op, std::size_t at, const std::string& 
   expect(')');
   result.is_condition = result.is_certain = op == Op::rises || op == Op::falls;
   if (result.is_condition) return result;
-  for (const Expression& part : result.parts) expect_number(part, "what stands in '" + name + "'");
+  for (const Expression& part : result.parts) expect_number(part, "each argument of '" + name + "'");
   if (two) expect_same_unit(result.parts[0], result.parts[1]);
   result.unit = result.parts[0].unit;
   return result;

@@ -195,7 +195,8 @@ TEST_F(Expressions, WrongExpressionsAreRefusedWithTheColumn) {
   refused("sent(gcs, gcs, /plan) > 1", 10, "'gcs' is named twice");
   parse("sent(all, all, /plan) > 1");
   refused("sent(jurong, gcs, plan) > 1", 18, "here must be a topic like '/plan'");
-  refused("held > 1 and 3", 13, "must be a condition");
+  refused("held > 1 and 3", 13, "each side of 'and' must be a condition");
+  refused("(held > 1) + 3 > 1", 1, "each term of a sum must be a number");
   refused("held = 1", 5, "write '=='");
   refused("1 < held < 3", 9, "one comparison at a time");
   refused("(held > 1", 9, "here must be ')', not the end");

@@ -154,7 +154,7 @@ void FaultChecker::check_contradiction(const Fault& fault, const std::string& pa
   } else {
     errors_.check(
         false, path,
-        "contradicts " + other->path + ": both take hold of " + *held + " at the same time; part their times");
+        "contradicts " + other->path + ": both affect " + *held + " at the same time; change one of the times");
   }
 }
 

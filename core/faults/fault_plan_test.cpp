@@ -263,7 +263,7 @@ TEST_F(FaultFile, WrongTopicsAreRefused) {
 TEST_F(FaultFile, ContradictionsAreRefused) {
   const std::string kill = "{at_s: 10, until_s: 20, kill: changi}";
   refused("faults: [" + kill + ", {at_s: 15, pause: changi}]",
-          "faults[1]: contradicts faults[0]: both take hold of the process of changi at the same time");
+          "faults[1]: contradicts faults[0]: both affect the process of changi at the same time");
   refused("faults: [{at_s: 5, blackout: jurong}, {at_s: 100, until_s: 110, blackout: jurong}]", "the radio of jurong");
   EXPECT_NO_THROW(load("faults: [" + kill + ", {at_s: 20, until_s: 25, pause: changi}, {at_s: 12, kill: jurong}]"));
   EXPECT_NO_THROW(load("faults: [{at_s: 1, link: {loss: 0.1}}, {at_s: 1, link: {loss: 0.2}}]"));

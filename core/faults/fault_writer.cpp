@@ -66,7 +66,7 @@ std::string fault_line(const Fault& fault) { return flow_text(to_node(fault)); }
 
 std::string by_hand_text(const std::string& description, const std::vector<std::string>& lines) {
   std::string text = "name: by-hand\ndescription: " + flow_scalar(ConfigNode::make_scalar(description, true)) +
-                     "\nby_hand: true  # times go on to the end of the run, whose clock began before the mission's\n";
+                     "\nby_hand: true  # times count from the start of the run, so they may exceed the mission time\n";
   if (lines.empty()) return text + "faults: []\n";
   text += "faults:\n";
   for (const std::string& line : lines) text += "  - " + line + "\n";

@@ -185,8 +185,9 @@ void check_scene(const SceneConfig& scene, ConfigErrors& errors) {
   const bool files = !scene.meshes.empty() || !scene.points.empty() || !scene.boxes.empty();
   const bool drawn = is_drawn_world(scene.family);
   if (scene.family.empty() || drawn) {
-    errors.check(files || !drawn, "scene.family",
-                 "'" + scene.family + "' is drawn whole, with its fleet: fly it as `skein run " + scene.family + "`");
+    errors.check(
+        files || !drawn, "scene.family",
+        "'" + scene.family + "' is generated together with its fleet: fly it as `skein run " + scene.family + "`");
     errors.check(files || drawn, "scene",
                  "needs 'family' (a procedural scene), or 'meshes', 'points' and 'boxes' (files)");
     errors.check(!files || !scene.meshes.empty(), "scene", "needs 'meshes': a list of mesh files");
