@@ -98,17 +98,19 @@ class RadioTable::Builder {
   void close(std::size_t number) {
     RadioRoute& route = routes_[number];
     release(route.source, route.topic);
-    for (const RadioTarget& target : std::exchange(route.targets, {})) {
-      const auto arrives_there = [&](const RadioRoute& other) {
-        return std::ranges::any_of(
-            other.targets, [&](const RadioTarget& t) { return t.node == target.node && t.topic == target.topic; });
-      };
-      if (std::ranges::none_of(routes_, arrives_there)) release(target.node, target.topic);
+    const std::vector<RadioTarget> closed = std::exchange(route.targets, {});
+    // Only messages of the same topic arrive under the same name (check_arrival()).
+    bool others_send = false;
+    std::vector<bool> arrives_still(uses_.size());  // by node
+    for (const RadioRoute& other : routes_) {
+      if (other.ros_topic != route.ros_topic) continue;
+      others_send = others_send || !other.targets.empty();
+      for (const RadioTarget& target : other.targets) arrives_still[target.node] = true;
     }
-    const auto has_topic = [&](const RadioRoute& other) {
-      return !other.targets.empty() && other.ros_topic == route.ros_topic;
-    };
-    if (std::ranges::none_of(routes_, has_topic)) types_.erase(route.ros_topic);
+    for (const RadioTarget& target : closed) {
+      if (!arrives_still[target.node]) release(target.node, target.topic);
+    }
+    if (!others_send) types_.erase(route.ros_topic);
   }
 
   RadioTarget arrival(Node node, const std::string& ros_topic, const std::string& ros_type) {
