@@ -13,6 +13,12 @@
 namespace skein::report {
 namespace {
 
+/// A seed as it is: a double does not hold all whole numbers above 2^53.
+std::string seed_of(const Json& result, const char* key) {
+  const Json seed = value_or(result, key, Json());
+  return seed.is_number_integer() ? seed.dump() : cell_of(result, key, 0);
+}
+
 FlightPicture picture_of(const results::RunRecord& run) {
   FlightPicture picture = shape_of(run);
   picture.station = run.station;
@@ -81,8 +87,8 @@ std::string facts(const Json& result) {
   };
   fact("Scenario", text_in(result, "scenario"));
   fact("Planner", planners_of(result));
-  fact("Seed", cell_of(result, "seed", 0));
-  fact("Scene seed", cell_of(result, "scene_seed", 0));
+  fact("Seed", seed_of(result, "seed"));
+  fact("Scene seed", seed_of(result, "scene_seed"));
   std::string rules_text = rules.is_string() ? rules.get<std::string>() : rules.is_null() ? "" : rules.dump();
   const Json switches = value_or(result, "rule_switches", Json::object());
   for (const auto& [name, setting] : switches.items()) rules_text += ", " + name + " " + setting.dump();
@@ -166,8 +172,8 @@ std::string command_of(const Json& result) {
   std::string command = "skein run " + shell_word(text_in(result, "scenario"));
   const std::string planner = planner_option(value_or(result, "planner", Json::object()));
   if (!planner.empty()) command += " --planner " + shell_word(planner);
-  command += " --seed " + cell_of(result, "seed", 0);
-  if (number_in(result, "scene_seed") > 0.0) command += " --scene-seed " + cell_of(result, "scene_seed", 0);
+  command += " --seed " + seed_of(result, "seed");
+  if (number_in(result, "scene_seed") > 0.0) command += " --scene-seed " + seed_of(result, "scene_seed");
   if (text_in(result, "status") == "completed")
     command += " --duration " + number_text(number_in(result, "mission_time_s"));
   const Json rules = value_or(result, "rules", nullptr);

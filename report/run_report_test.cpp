@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-
+#include <cstdint>
+#include <limits>
 #include <regex>
 
 #include "core/types.hpp"
@@ -173,14 +174,14 @@ TEST(RunReport, ThePageHasTheTypedCommandOrOneThatRepeatsTheRun) {
   EXPECT_NE(page_of({{"command", typed}}).find(escaped(typed)), std::string::npos);
   const std::string page = page_of({{"scenario", "my scene.yaml"},
                                     {"seed", 7},
-                                    {"scene_seed", 3},
+                                    {"scene_seed", std::numeric_limits<std::uint64_t>::max()},
                                     {"status", "completed"},
                                     {"mission_time_s", 120.5},
                                     {"planner", {{"a", "kios"}, {"b", "exec:./x y"}}},
                                     {"dds", {{"sim_server", "inproc"}}}});
   EXPECT_NE(page.find(escaped(
-                "skein run 'my scene.yaml' --planner 'a=kios,b=exec:./x y' --seed 7 --scene-seed 3 --duration 120.5 "
-                "--one-process")),
+                "skein run 'my scene.yaml' --planner 'a=kios,b=exec:./x y' --seed 7 --scene-seed 18446744073709551615 "
+                "--duration 120.5 --one-process")),
             std::string::npos);
 }
 
