@@ -18,7 +18,7 @@ class HostLock {
   static std::optional<HostLock> try_take(const std::string& name);
   /// The process that holds the lock; nullopt if there is none, if it has taken the lock only just now, or if it is not
   /// visible in this process's PID namespace: from within a container, processes outside it are not. Also nullopt
-  /// after about 4,096 calls for the same lock (SOMAXCONN), which each fill a place of the holder's queue until it ends.
+  /// after about 4,096 calls for the same lock (SOMAXCONN): each takes a place in the holder's queue until it ends.
   /// Use the result only in messages; to find out whether the lock is free, call try_take().
   static std::optional<pid_t> holder(const std::string& name);
 
