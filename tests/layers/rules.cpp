@@ -272,11 +272,10 @@ Violations check_sleeping(const Tree& tree) {
 }
 
 Violations check_clocks(const Tree& tree) {
-  // The one place where tests wait, a test whose subject is the clock, a program in a container, one that plays a
-  // made-up flight at a given pace, and the planner with planted defects, one of which reads the calendar.
-  static const std::set<std::string> kAllowed = {"tests/support/eventually.cpp", "process/health/heartbeat_test.cpp",
-                                                 "tests/containers/intruder.cpp", "tests/hunt/planted.cpp",
-                                                 "tests/view/feeder.cpp"};
+  // The one place where tests wait, a program in a container, one that plays a made-up flight at a given pace, and the
+  // planner with planted defects, one of which reads the calendar.
+  static const std::set<std::string> kAllowed = {"tests/support/eventually.cpp", "tests/containers/intruder.cpp",
+                                                 "tests/hunt/planted.cpp", "tests/view/feeder.cpp"};
   static const std::regex kClock(R"(\b(\w*[cC]lock\s*::\s*now|clock_gettime|gettimeofday|std\s*::\s*time)\b)");
   Violations violations;
   for (const SourceFile& file : tree) {
