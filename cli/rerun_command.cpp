@@ -79,7 +79,8 @@ RunOptions options_now(const RunOptions& given, const fs::path& run, const Json&
   return options;
 }
 
-/// The options as the user gave them then, without those that only that run needed: output, debugging, view, security.
+/// The options as the user gave them then, without those that only that run needed: output, debugging, view, security,
+/// and the hosts of its programs.
 RunOptions options_of(const fs::path& run, const Json& result) {
   const std::string command = text_in(result, "command");
   std::vector<std::string> words = shell_words(command);
@@ -100,6 +101,7 @@ RunOptions options_of(const fs::path& run, const Json& result) {
   options.break_from.reset();
   options.domain.reset();
   options.network.reset();
+  options.place = {};
   options.view = {};
   options.secure = options.force = options.one_process = options.cores = false;
   options.record = "run";
@@ -133,6 +135,10 @@ void choose_processes(const Reflight& reflight, RunOptions& options) {
   options.debug = reflight.debug;
   options.agent = reflight.agent ? reflight.agent : options.agent;
   options.force = reflight.force;
+  if (!reflight.debug.empty()) {  // the user may look at a program for any time
+    options.agent_timeout_s.reset();
+    options.lease_s.reset();
+  }
   if (reflight.dds || !reflight.debug.empty()) return;
   options.one_process = !needs_processes(plan_fleet(options, program_dir())).has_value();
 }

@@ -45,6 +45,18 @@ TEST_F(OptionsOfRun, AreThoseOfTheRunsCommand) {
   EXPECT_FALSE(run.out);
 }
 
+// Otherwise, the repeated flight would log in on these hosts, although it flies on this one.
+TEST_F(OptionsOfRun, DoNotNameTheHostsOfThatRun) {
+  const RunOptions run = options("skein run " + small_ +
+                                 " --seed 3 --place alpha=host1 --ssh 'ssh -p 2222' --skein-path /opt/skein "
+                                 "--network lo --secure");
+  EXPECT_FALSE(run.place.at);
+  EXPECT_FALSE(run.place.skein);
+  EXPECT_EQ(run.place.ssh, PlaceOptions().ssh);
+  EXPECT_FALSE(run.network);
+  EXPECT_FALSE(run.secure);
+}
+
 TEST_F(OptionsOfRun, AreRefusedIfTheyRunAStationProgramThatTheFleetDoesNotHave) {
   RunOptions run = options("skein run " + small_ + " --planner hover --seed 3");
   run.replay = ReplayOf{"recording.mcap", {}, {"gcs"}, {}};
