@@ -62,6 +62,16 @@ TEST_F(StudyCommand, ARefusedCommandWithAnotherPlannerLeavesTheFolderAsItIs) {
   EXPECT_EQ(flown(), "");
 }
 
+// `skein --flight` may refuse a flight before it empties the results folder.
+TEST_F(StudyCommand, ARefusedFlightLeavesNoFormerResultThatCounts) {
+  ASSERT_EQ(run(), kExitDone) << err_.str();
+  programs_.script("station", "# another build\n");
+  hook("if [ $seed = 2 ] && [ $planner = hover ]; then exit 2; fi\n");
+  options_.force = true;
+  EXPECT_EQ(run(), kExitProcessFailed);
+  EXPECT_NE(file("flights.csv").find(",hover,2,,"), std::string::npos) << file("flights.csv");
+}
+
 // A user who asks for the status has not asked for flights.
 TEST_F(StudyCommand, TheStatusAfterAnotherBuildTellsWhichResultsFitAndWhatContinuingDoes) {
   ASSERT_EQ(run(), kExitDone) << err_.str();

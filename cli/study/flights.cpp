@@ -88,6 +88,7 @@ class StudyRun {
     const StudyFlight& flight = plan_.flights[index];
     if (const std::error_code error = make_results_folder(flight.dir)) throw std::system_error(error, flight.dir);
     fs::remove(flight.dir / kFlightMark);
+    fs::remove(flight.dir / run_folder::kResult);  // if the flight is refused, the former result must not count
     return flight_program(flight_options(plan_, flight));
   }
 
