@@ -243,6 +243,19 @@ std::set<std::string> SweepController::nodes_of_no_use(const std::vector<std::si
   return others.empty() ? std::set<std::string>{} : flew;
 }
 
+/// Flies a flight again on this machine. @returns its digest; nullopt, with a message, if it fails here. Then it is not
+/// tried again, and the sweep goes on without the check.
+std::optional<std::string> SweepController::flown_again(const SweepFlight& flight) {
+  if (fails_here_.contains(flight.index)) return std::nullopt;
+  try {
+    return digest_here(folder_, flight, here_);
+  } catch (const NodeTrouble& trouble) {
+    fails_here_.insert(flight.index);
+    say_ << trouble.what() << "; its digest is not checked here" << std::endl;
+    return std::nullopt;
+  }
+}
+
 /// Flies the remaining checks on this machine, without those of flights that this machine flew first: at most
 /// kMostChecksHere in the life of this object. @returns whether it has flown any.
 bool SweepController::check_here() {
@@ -250,17 +263,18 @@ bool SweepController::check_here() {
   bool any = false;
   for (const SweepFlight& flight : unchecked_flights()) {
     const auto first = row_in_place(folder_, flight, here_);
-    if (!first || first->node == here_.name) continue;
+    if (!first || first->node == here_.name || fails_here_.contains(flight.index)) continue;
     if (checked_here_ == kMostChecksHere) break;
     ++checked_here_;
-    folder_.write_check(settings_.token, {flight.index, here_.name, digest_here(folder_, flight, here_), first->node,
-                                          digest_in(*first)});
+    const auto digest = flown_again(flight);
+    if (!digest) continue;
+    folder_.write_check(settings_.token, {flight.index, here_.name, *digest, first->node, digest_in(*first)});
     any = true;
   }
   return any;
 }
 
-void SweepController::judge_checks() const {
+void SweepController::judge_checks() {
   for (const std::size_t index : folder_.checks(settings_.token)) {
     const auto check = folder_.check(settings_.token, index);
     if (check && check->digest != check->first_digest) judge(*check);
@@ -269,11 +283,13 @@ void SweepController::judge_checks() const {
 
 /// Two nodes have different digests of a flight. To find out which of them is wrong, this machine flies the flight
 /// twice. If its own two digests are equal, it quarantines each node with another digest. If not, the flight is not
-/// repeatable, and neither node is to blame.
-void SweepController::judge(const SweepCheck& check) const {
+/// repeatable, and neither node is to blame. If the flight fails here, the check stays for a later call of the command.
+void SweepController::judge(const SweepCheck& check) {
   const SweepFlight disputed = flight(check.index);
-  const std::string here = digest_here(folder_, disputed, here_);
-  if (digest_here(folder_, disputed, here_) != here) {
+  const auto first = flown_again(disputed), second = first ? flown_again(disputed) : std::nullopt;
+  if (!second) return;
+  const std::string& here = *first;
+  if (*second != here) {
     say_ << disputed.dir.string()
          << ": its digest is different each time that it is flown here, so it is not repeatable: see "
             "`skein check-planner`\n";

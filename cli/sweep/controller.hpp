@@ -79,9 +79,10 @@ class SweepController {
   std::set<std::string> nodes_of_no_use(const std::vector<std::size_t>& checks,
                                         const std::set<std::string>& avoided) const;
   EngineWork checks_elsewhere();
+  std::optional<std::string> flown_again(const SweepFlight& flight);
   bool check_here();
-  void judge(const SweepCheck& check) const;
-  void judge_checks() const;
+  void judge(const SweepCheck& check);
+  void judge_checks();
   void remove_quarantined();
   SweepFlight flight(std::size_t index) const;
   void tell_progress();
@@ -91,9 +92,10 @@ class SweepController {
   const SweepNode& here_;
   std::ostream& say_;
   SweepSettings settings_;
-  std::set<std::string> removed_;  ///< quarantined nodes whose results have been set aside
-  std::size_t checked_here_ = 0;   ///< number of checks that this machine has flown
-  std::size_t told_ = 0;           ///< units that were over at the last report of progress
+  std::set<std::string> removed_;     ///< quarantined nodes whose results have been set aside
+  std::size_t checked_here_ = 0;      ///< number of checks that this machine has flown
+  std::set<std::size_t> fails_here_;  ///< flights that failed when this machine flew them again
+  std::size_t told_ = 0;              ///< units that were over at the last report of progress
 };
 
 }  // namespace skein::cli
