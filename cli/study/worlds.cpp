@@ -46,11 +46,16 @@ std::string text_of(const Study& study, const FlightEntry& flight) {
                      figures, flight.command);
 }
 
+/// False while a study goes on, or after Ctrl-C: the flight may still be a good one.
+bool is_over(const FlightEntry& flight) { return flight.figures || !flight.problem.empty(); }
+
 }  // namespace
 
 std::vector<const FlightEntry*> worst_flights(const Study& study, std::size_t most) {
   std::vector<const FlightEntry*> flights;
-  for (const FlightEntry& flight : study.flights) flights.push_back(&flight);
+  for (const FlightEntry& flight : study.flights) {
+    if (is_over(flight)) flights.push_back(&flight);
+  }
   std::ranges::stable_sort(flights, std::greater<>(), [](const FlightEntry* flight) { return badness(*flight); });
   flights.resize(std::min(flights.size(), most));
   return flights;
@@ -87,8 +92,8 @@ bool print_requirements(std::ostream& out, const Study& study, const std::vector
   bool all_hold = true;
   for (const Requirement& requirement : requirements) {
     for (const FlightEntry& flight : study.flights) {
-      if (requirement.holds(flight.figures)) continue;
-      if (all_hold) out << "\nnot kept:\n";
+      if (!is_over(flight) || requirement.holds(flight.figures)) continue;
+      if (all_hold) out << "\nrequirements not met:\n";
       all_hold = false;
       out << fmt::format("  {}: {} in {}, {}, seed {}\n    {}\n", requirement.text, requirement.seen(flight.figures),
                          study.scenarios[flight.scenario], study.planners[flight.planner], flight.seed, flight.command);

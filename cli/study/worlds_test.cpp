@@ -41,12 +41,27 @@ TEST_F(Worlds, WorstFlightsAreOrderedByFailureCollisionsFrozenUavsAndShare) {
   add(0, 50.0, 0, 1);
   add(0, 60.0, 1);
   add(0, 0.0).figures.reset();
+  study_.flights.back().problem = "skein run ended with exit code 3";
   const auto worst = worst_flights(study_, 4);
   ASSERT_EQ(worst.size(), 4u);
   EXPECT_EQ(worst[0], &study_.flights[4]);
   EXPECT_EQ(worst[1], &study_.flights[3]);
   EXPECT_EQ(worst[2], &study_.flights[2]);
   EXPECT_EQ(worst[3], &study_.flights[1]);
+}
+
+// Such flights are left after Ctrl-C, and while a sweep goes on.
+TEST_F(Worlds, FlightsThatAreNotOverAreNotTheWorstAndBreakNoRequirement) {
+  add(0, 80.0);
+  add(0, 0.0).figures.reset();
+  ASSERT_EQ(worst_flights(study_, 10).size(), 1u);
+  EXPECT_EQ(printed().find("failed"), std::string::npos) << printed();
+  std::ostringstream out;
+  EXPECT_TRUE(print_requirements(out, study_, {parse_requirement("attainable_percent>50")}));
+  EXPECT_EQ(out.str(), "");
+  study_.flights.back().problem = "skein run ended with exit code 3";
+  EXPECT_FALSE(print_requirements(out, study_, {parse_requirement("attainable_percent>50")}));
+  EXPECT_EQ(out.str().find("\nrequirements not met:\n"), 0U) << out.str();
 }
 
 TEST_F(Worlds, FlightsAreSortedAndTheCommandsOfTheTenWorstArePrinted) {
