@@ -104,11 +104,13 @@ RunOptions with_debugger(RunOptions options, const Console& console) {
 }
 
 /// Flies the flight that is to be debugged without the debugger. Keeps and shows nothing. @returns its result.json.
-Json fly_quietly(RunOptions options) {
+Json fly_quietly(const FleetPlan& plan) {
+  RunOptions options = plan.options;
   options.debug.clear();
   options.log.clear();
   options.domain.reset();
-  options.one_process = options.break_on != "lost";  // a program that crashes would end the whole process
+  // A program that crashes would end the whole process.
+  options.one_process = options.break_on != "lost" && !needs_processes(plan);
   options.break_on.reset();
   options.view = {};
   options.cores = false;
@@ -127,7 +129,7 @@ void find_break(RunOptions& options, const Console& console) {
   const FleetPlan plan = plan_fleet(options, program_dir());
   if (!options.break_from)
     console.err << "flying once to find the time of --break-on " << *options.break_on << std::endl;
-  const Json result = options.break_from ? result_of_same_flight(*options.break_from, plan) : fly_quietly(options);
+  const Json result = options.break_from ? result_of_same_flight(*options.break_from, plan) : fly_quietly(plan);
   const std::string& member = plan.debug.front().member;
   options.break_at_s = event_time_s(result, member, *options.break_on);
   if (!options.break_at_s) throw InputError("--break-on " + *options.break_on + ": it never happened to " + member);
