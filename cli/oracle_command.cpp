@@ -139,6 +139,15 @@ void print_several(std::ostream& out, const Json& answers, bool outside_only) {
   out << "\nchange     by twice as many viewpoints";
 }
 
+/// The command with which the user asks about the scene of a run.
+std::string oracle_line(const RunOptions& run) {
+  std::vector<std::string> words = {"skein", "oracle", run.scenario};
+  if (run.scene_seed) words.insert(words.end(), {"--scene-seed", std::to_string(*run.scene_seed)});
+  if (run.assets) words.insert(words.end(), {"--assets", *run.assets});
+  if (run.rules) words.insert(words.end(), {"--rules", *run.rules});
+  return shell_line(words);
+}
+
 }  // namespace
 
 void add_oracle(CLI::App& app, OracleOptions& oracle) {
@@ -190,8 +199,7 @@ AttainableAnswer attainable_of(const RunOptions& run) try {
   const Json attainable = attainable_from(asked.answers.front());
   if (attainable.is_null()) {
     return {nullptr, nullptr,
-            "what is attainable here takes a while to compute: `skein oracle " + run.scenario +
-                (run.rules ? " --rules " + *run.rules : "") + "` does it once"};
+            "what is attainable here takes a while to compute: `" + oracle_line(run) + "` does it once"};
   }
   return {attainable, asked.answers.front(), ""};
 } catch (const Interrupted&) {

@@ -182,6 +182,14 @@ TEST_F(OracleCommand, ARunGetsTheEstimateOrAHint) {
   const AttainableAnswer unknown = attainable_of(run_of("big.yaml"));
   EXPECT_TRUE(unknown.attainable.is_null());
   EXPECT_NE(unknown.hint.find("skein oracle big.yaml"), std::string::npos) << unknown.hint;
+
+  RunOptions run = run_of("big.yaml");
+  run.scene_seed = 7;
+  run.assets = "my data";
+  run.rules = "paper";
+  const std::string hint = attainable_of(run).hint;
+  EXPECT_NE(hint.find("`skein oracle big.yaml --scene-seed 7 --assets 'my data' --rules paper`"), std::string::npos)
+      << hint;
 }
 
 }  // namespace
