@@ -61,7 +61,7 @@ std::vector<std::string> tool_words(const std::string& how, pid_t pid, const std
   } else {
     words = shell_words(how);
   }
-  if (words.empty()) throw InputError(why + ": say with what: gdb, gdbserver:PORT or a command");
+  if (words.empty()) throw InputError(why + ": name a tool: gdb, gdbserver:PORT or a command");
   words[0] = tool_file(words[0], why);
   words.push_back(process);
   return words;

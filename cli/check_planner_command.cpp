@@ -176,7 +176,7 @@ class PlannerCheck {
     console_.out << what << ": digest " << (digest.empty() ? "none" : digest) << std::endl;
     if (digest.empty()) {
       ++differences_;
-      console_.out << "  it came to no end of its own, so nothing can be compared\n";
+      console_.out << "  the run did not reach its end, so there is nothing to compare\n";
       planned_ -= surroundings_.size();
       return;
     }

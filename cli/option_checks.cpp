@@ -63,7 +63,7 @@ void check_paths(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (is_utf8(argument)) continue;
     throw InputError("the argument " + shell_word(argument) +
-                     " is not in UTF-8, as what Skein writes is; rename the file or folder, or convert the text");
+                     " is not in UTF-8, which Skein's own files need; rename the file or folder, or convert the text");
   }
   std::error_code error;
   const std::filesystem::path here = std::filesystem::current_path(error);

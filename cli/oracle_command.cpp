@@ -227,7 +227,7 @@ void print_oracle(std::ostream& out, const std::string& scenario, const Json& an
         << " can reach from above or from its start without coming nearer to the structure\n";
   }
   const double berth = value_or(first, "outside_berth_m", 0.0);
-  out << "outside    from where openings less than " << metres(2.0 * berth) << " wide keep it out" << std::endl;
+  out << "outside    only from outside all openings less than " << metres(2.0 * berth) << " wide" << std::endl;
 }
 
 int consult_oracle(const OracleOptions& options, const Console& console) {

@@ -79,7 +79,7 @@ std::vector<Debuggee> parse_debug(const Words& values,
     } else {
       one.how = How::command;
       one.tool = shell_words(how);
-      if (one.tool.empty()) throw InputError(why + ": say with what: gdb, gdbserver:PORT, wait or a command");
+      if (one.tool.empty()) throw InputError(why + ": name a tool: gdb, gdbserver:PORT, wait or a command");
     }
     if (one.has_tool()) one.tool[0] = tool_file(one.tool[0], why);
     debuggees.push_back(one);
