@@ -12,6 +12,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "core/text/sha256.hpp"
+
 namespace skein::cli {
 namespace {
 
@@ -63,6 +65,14 @@ void add_extension(X509* certificate, int kind, const char* value) {
   must(extension && X509_add_ext(certificate, extension.get(), -1) == 1, "extend a certificate");
 }
 
+/// The name itself if it fits into a certificate (RFC 5280, ub-common-name). Otherwise its beginning, with a digest by
+/// which it differs from other names. "uav_agent-UAV" does not fit if the name of the UAV is long.
+std::string common_name(const std::string& name) {
+  constexpr std::size_t kLongest = 64, kDigest = 16;
+  if (name.size() <= kLongest) return name;
+  return name.substr(0, kLongest - kDigest - 1) + "-" + Sha256().add(name).hex().substr(0, kDigest);
+}
+
 /// Adds the parts in reverse order, since RFC 2253 prints the last part first.
 void set_name(X509_NAME* subject, const std::string& name) {
   const auto add = [&](const char* part, const std::string& value) {
@@ -72,7 +82,7 @@ void set_name(X509_NAME* subject, const std::string& name) {
   };
   add("C", "NL");
   add("O", "Skein");
-  add("CN", name);
+  add("CN", common_name(name));
 }
 
 }  // namespace

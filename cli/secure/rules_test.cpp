@@ -95,6 +95,17 @@ TEST(SecurityKeys, EveryIdentityHasItsOwnKeyAndItsSubject) {
   EXPECT_NE(authority.certificate(), Authority("identities").certificate());
 }
 
+// OpenSSL limits a name in a certificate to 64 letters, and so does the scenario that of a UAV.
+TEST(SecurityKeys, ProgramsOfUavsWithTheLongestNamesHaveDifferentSubjects) {
+  const Authority authority("identities");
+  const std::string uav(63, 'x');
+  const std::string one = authority.issue("uav_agent-" + uav + "1").subject;
+  const std::string other = authority.issue("uav_agent-" + uav + "2").subject;
+  EXPECT_EQ(one.find("CN=uav_agent-xxx"), 0U) << one;
+  EXPECT_NE(one, other);
+  EXPECT_EQ(authority.issue("uav_agent-" + uav + "1").subject, one);
+}
+
 TEST(SecurityKeys, ADocumentIsSignedAsText) {
   const std::string text = permissions("CN=a,O=Skein,C=NL", {3, 3, {"rt/skein/step"}});
   const std::string signed_text = Authority("permissions").sign(text);
