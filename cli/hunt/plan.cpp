@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cli/hunt/weather_faults.hpp"
+#include "cli/study/made_under.hpp"
 #include "core/config/config_writer.hpp"
 #include "core/faults/fault_writer.hpp"
 #include "core/files/file_bytes.hpp"
@@ -114,6 +115,7 @@ Json settings_of(const HuntPlan& plan) {
                 {"properties", Json::object()},    {"programs", programs_digest(plan.fleet)}};
   // The usual number is left out, so that hunts of earlier versions can be continued.
   if (plan.options.round != kUsualRound) settings["round"] = plan.options.round;
+  if (const auto inputs = input_files_digest(plan.fleet)) settings["inputs"] = *inputs;
   if (!plan.options.conditions.empty()) settings["conditions"] = plan.options.conditions;
   for (const auto& [name, entry] : plan.entries) {
     settings["properties"][name] = flow_text(ConfigWriter::node_of(entry).value_or(ConfigNode{}));

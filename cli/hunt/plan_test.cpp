@@ -65,6 +65,23 @@ TEST_F(HuntPlans, ACapsuleIsAFaultTestThatReadsBack) {
   }
 }
 
+// Otherwise, a hunt would go on with outcomes of another planner.
+TEST_F(HuntPlans, TheFilesOfPlannersAreSettings) {
+  HuntOptions hunt = options();
+  EXPECT_FALSE(plan_hunt(hunt).settings.contains("inputs")) << "a hunt of an earlier version has no such key";
+  const std::string program = programs_.dir() / "mine.sh", parameters = programs_.dir() / "mine.yaml";
+  for (const auto& [planner, file] : {std::pair("exec:sh " + program + " --fast", program),
+                                      std::pair("exec:cd / && exec sh " + program + "; exit", program),
+                                      std::pair("hover:" + parameters, parameters)}) {
+    hunt.run.planner = planner;
+    write_text(file, "one");
+    const Json before = plan_hunt(hunt).settings;
+    EXPECT_EQ(plan_hunt(hunt).settings, before);
+    write_text(file, "another");
+    EXPECT_NE(plan_hunt(hunt).settings.at("inputs"), before.at("inputs")) << planner;
+  }
+}
+
 // Otherwise a search with another size of rounds could take logged cases beyond a gap for its own.
 TEST_F(HuntPlans, TheSizeOfRoundsIsASettingUnlessItIsTheDefault) {
   HuntOptions hunt = options();

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "process/json_text.hpp"
@@ -13,6 +14,11 @@ namespace skein::cli {
 
 /// How a fleet's programs communicate, for messages: "one process", or the DDS vendor.
 std::string medium_of(const FleetPlan& fleet);
+
+/// Digest of the files that a flight reads beside programs and scenario: those of the scene, planners in Python, files
+/// with parameters, those that the commands of `exec:` name, and the fault file. nullopt: there are none.
+/// @throws InputError if a file cannot be read.
+std::optional<std::string> input_files_digest(const FleetPlan& fleet);
 
 /// Reads each program only once, also for many fleets. One thread.
 class MadeUnder {
