@@ -50,7 +50,7 @@ Subject subject_of(const BlameOptions& options) {
     subject.run = options_of_run(options.what);
     if (options.agent) subject.run.agent = options.agent;
     if (options.assets) subject.run.assets = options.assets;
-    subject.faults = plan_fleet(subject.run, program_dir()).faults.faults;
+    subject.faults = plan_fleet(subject.run, program_dir(), Processes::one_if_possible).faults.faults;
   }
   subject.run.faults.reset();
   return subject;
@@ -64,9 +64,9 @@ HuntPlan plan_of(const BlameOptions& options, const Subject& subject) {
   hunt.run.record = "messages";
   hunt.run.dds = options.dds.value_or(hunt.run.dds);
   hunt.jobs = 1;
-  HuntPlan plan{hunt, plan_fleet(hunt.run, program_dir()), subject.entries, {}};
-  plan.one_process = !options.dds && !needs_processes(plan.fleet);
-  plan.fleet.options.one_process = plan.one_process;
+  const Processes processes = options.dds ? Processes::as_given : Processes::one_if_possible;
+  HuntPlan plan{hunt, plan_fleet(hunt.run, program_dir(), processes), subject.entries, {}};
+  plan.one_process = plan.fleet.options.one_process;
   plan.fleet.options.duration_s = plan.fleet.scenario.duration_s;
   return plan;
 }

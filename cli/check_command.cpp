@@ -57,7 +57,7 @@ void check_with_programs(const CheckOptions& options, const std::string& scenari
   run.planner = planner;
   run.assets = options.assets;
   run.agent = options.agent;
-  check_with_programs(plan_fleet(run, program_dir()), console);
+  check_with_programs(plan_fleet(run, program_dir(), Processes::one_if_possible), console);
 }
 
 /// @returns the name of the scenario that a file was checked with.

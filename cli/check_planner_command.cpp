@@ -14,6 +14,7 @@
 #include "cli/run_command.hpp"
 #include "cli/study/flights.hpp"
 #include "core/planners/python_spec.hpp"
+#include "core/scenario/scenario_reader.hpp"
 #include "core/text/number_checks.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
@@ -135,10 +136,11 @@ class PlannerCheck {
     base_ = options.run;
     base_.attainable = base_.report = false;
     base_.force = true;
-    const FleetPlan plan = plan_fleet(base_, program_dir());
-    base_.one_process = !needs_processes(plan);
+    const FleetPlan plan = plan_fleet(base_, program_dir(), Processes::one_if_possible);
+    base_.one_process = plan.options.one_process;
     duration_s_ = plan.scenario.duration_s;
     first_uav_ = plan.scenario.fleet.front().name;
+    uavs_ = plan.scenario.fleet.size();
     python_ =
         std::ranges::any_of(plan.planners, [](const auto& planner) { return python_spec(planner.spec).has_value(); });
   }
@@ -149,7 +151,8 @@ class PlannerCheck {
     if (options_.out) kept = ResultsDir::take_for_flights(options_.out, {}, options_.force);
     out_ = kept ? kept->path() : scratch.path();
     for (const Surroundings& one : all_surroundings(program_dir(), python_)) {
-      if (!is_as_first(one)) surroundings_.push_back(one);
+      const bool is_too_large = one.dds && uavs_ > kMostUavsOverDds;
+      if (!is_as_first(one) && !is_too_large) surroundings_.push_back(one);
     }
     planned_ = kMissions * (1 + surroundings_.size());
     check("a mission", "plain", {});
@@ -250,6 +253,7 @@ class PlannerCheck {
   RunOptions base_;
   double duration_s_ = 0.0;
   std::string first_uav_;
+  std::size_t uavs_ = 0;
   bool python_ = false;
   fs::path out_;
   int differences_ = 0;

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 /// The options with which a command flies: for a capsule, those in its file, and a few of the command's own.
 RunOptions options_flown(const RunOptions& given) {
   if (!is_capsule(given)) return given;
-  RunOptions options = load_fault_test(given.scenario, given.assets, given.agent).plan.options;
+  RunOptions options = load_fault_test(given.scenario, given.assets, given.agent, given.one_process).plan.options;
   options.dds = given.dds;
   options.attainable = given.attainable;
   options.report = given.report;
@@ -140,12 +140,13 @@ void choose_processes(const Reflight& reflight, RunOptions& options) {
     options.lease_s.reset();
   }
   if (reflight.dds || !reflight.debug.empty()) return;
-  options.one_process = !needs_processes(plan_fleet(options, program_dir())).has_value();
+  options.one_process = plan_fleet(options, program_dir(), Processes::one_if_possible).options.one_process;
 }
 
 /// Members whose planner has changed. @param then, now  options of the two runs.
 std::vector<std::string> with_other_planner(const RunOptions& then, const RunOptions& now) {
-  const FleetPlan before = plan_fleet(then, program_dir()), after = plan_fleet(now, program_dir());
+  const FleetPlan before = plan_fleet(then, program_dir(), Processes::one_if_possible);
+  const FleetPlan after = plan_fleet(now, program_dir(), Processes::one_if_possible);
   std::vector<std::string> members;
   for (const UavPlanner& planner : after.planners) {
     const bool is_same = std::ranges::any_of(before.planners, [&](const UavPlanner& other) {
@@ -169,7 +170,7 @@ std::string other_digest(const Json& then, const Json& now) {
 /// UAVs that an agent flies, not a program of the user's own.
 std::vector<std::string> uavs_with_agents(const RunOptions& options) {
   std::vector<std::string> uavs;
-  for (const UavPlanner& planner : plan_fleet(options, program_dir()).planners) {
+  for (const UavPlanner& planner : plan_fleet(options, program_dir(), Processes::one_if_possible).planners) {
     if (!exec_command(planner.spec)) uavs.push_back(planner.uav);
   }
   return uavs;

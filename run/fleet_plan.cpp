@@ -31,6 +31,20 @@ std::filesystem::path fleets_agent(const FleetPlan& plan) {
   return plan.agent.value_or(plan.bin_dir / programs::kAgent);
 }
 
+void choose_processes(FleetPlan& plan, Processes processes) {
+  RunOptions& options = plan.options;
+  const bool either = processes == Processes::one_if_possible;
+  const auto reason = either || options.one_process ? needs_processes(plan) : std::nullopt;
+  if (either) {
+    options.one_process = !reason;
+  } else if (reason) {
+    throw InputError(*reason + "; leave out --one-process");
+  }
+  if (!options.one_process) return check_uavs_over_dds(plan.scenario.fleet.size());
+  // Read now, because SKEIN_THREADS may be wrong, and later the results folder has been emptied already.
+  options.threads = threads_of(options.threads, plan.scenario.fleet.size());
+}
+
 }  // namespace
 
 LoadOptions load_options(const RunOptions& options) {
@@ -44,7 +58,7 @@ LoadOptions load_options(const RunOptions& options) {
   return load;
 }
 
-FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir) {
+FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir, Processes processes) {
   check_environment();
   if (options.secure && options.dds == "mixed") {
     throw InputError(
@@ -69,12 +83,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   }
   plan.debug = debuggees(plan);
   plan.log_levels = log_levels(plan);
-  if (const auto reason = options.one_process ? needs_processes(plan) : std::nullopt) {
-    throw InputError(*reason + "; leave out --one-process");
-  }
-  if (!options.one_process) check_uavs_over_dds(plan.scenario.fleet.size());
-  // Read now, because SKEIN_THREADS may be wrong, and later the results folder has been emptied already.
-  if (options.one_process) plan.options.threads = threads_of(options.threads, plan.scenario.fleet.size());
+  choose_processes(plan, processes);
   return plan;
 }
 

@@ -69,8 +69,16 @@ std::uint64_t draw_run_id();
 /// The part of a run's options that changes how its scenario is loaded.
 LoadOptions load_options(const RunOptions& options);
 
-/// Loads the scenario and resolves all options into a plan. @throws InputError if one of them is not valid.
-FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir);
+/// What decides whether a fleet flies in one process.
+enum class Processes {
+  as_given,         ///< RunOptions::one_process
+  one_if_possible,  ///< only what the fleet needs (needs_processes())
+};
+
+/// Loads the scenario and resolves all options into a plan. Its `options.one_process` says how the fleet flies.
+/// @throws InputError if one of the options is not valid.
+FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin_dir,
+                     Processes processes = Processes::as_given);
 
 /// Folder of the programs: SKEIN_BIN_DIR, else the folder of this executable.
 std::filesystem::path program_dir();

@@ -35,7 +35,7 @@ struct RunPart {
     r.field("planner", planner);
     r.field("seed", seed);
     r.field("scene_seed", scene_seed);
-    r.field("uavs", uavs, within(1.0, 128.0));
+    r.field("uavs", uavs, within(1.0, static_cast<double>(kMostUavs)));
     r.field("duration_s", duration_s, Bounds{0.0, 36000.0, true});
     r.field("conditions", conditions);
     r.field("dds", dds);

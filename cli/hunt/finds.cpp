@@ -6,6 +6,7 @@
 #include <chrono>
 #include <set>
 
+#include "core/scenario/scenario_reader.hpp"
 #include "process/files/atomic_file.hpp"
 
 namespace skein::cli {
@@ -134,9 +135,10 @@ std::optional<Find> Finds::made_before(const Find& find, const std::string& of) 
   return std::nullopt;
 }
 
-/// Flies a find of a hunt in one process again over DDS. If the two runs differ, the find becomes one of kSameDigest.
+/// Flies a find of a hunt in one process again over DDS, unless the fleet is too large for it. If the two runs differ,
+/// the find becomes one of kSameDigest.
 void Finds::confirm(Find& find, const TrialOutcome& outcome) {
-  if (!plan_.one_process) return;
+  if (!plan_.one_process || plan_.fleet.scenario.fleet.size() > kMostUavsOverDds) return;
   Trial trial = find.trial;
   trial.run.one_process = false;
   const TrialOutcome over_dds = flights_.fly({trial}).front();

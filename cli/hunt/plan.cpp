@@ -163,9 +163,9 @@ double longest_deadline_s(const properties::PropertySet& set) {
 
 HuntPlan plan_hunt(const HuntOptions& options) {
   RunOptions run = run_options_of(options);
-  HuntPlan plan{options, plan_fleet(run, program_dir()), {}, {}};
-  plan.one_process = !options.dds && !needs_processes(plan.fleet);
-  plan.fleet.options.one_process = plan.one_process;
+  const Processes processes = options.dds ? Processes::as_given : Processes::one_if_possible;
+  HuntPlan plan{options, plan_fleet(run, program_dir(), processes), {}, {}};
+  plan.one_process = plan.fleet.options.one_process;
   if (!options.jobs) plan.options.jobs = plan.one_process ? usable_cores() : 1;
   if (options.dds) plan.fleet.options.dds = *options.dds;
   if (options.properties) properties::load_properties(*options.properties, plan.fleet.scenario);  // names error lines

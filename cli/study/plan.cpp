@@ -268,17 +268,17 @@ StudyPlan plan_study(const StudyOptions& options, AskPrograms ask) {
   Json inputs = Json::object(), agents = Json::object();
   MadeUnder made_under;
   ScenarioFiles files;
+  const Processes processes = options.dds ? Processes::as_given : Processes::one_if_possible;
   const auto built_in =
       own_agent(options.agent) ? planners_of(program_dir() / programs::kAgent) : std::vector<std::string>{};
   for (std::size_t s = 0; s < plan.scenarios.size(); ++s) {
     for (std::size_t p = 0; p < plan.planners.size(); ++p) {
-      FleetPlan fleet = plan_fleet(run_options(options, plan.scenes[s], plan.planners[p]), program_dir());
+      FleetPlan fleet = plan_fleet(run_options(options, plan.scenes[s], plan.planners[p]), program_dir(), processes);
       if (p == 0) files.add(plan.scenes[s].scenario, fleet.scenario.file);
       if (fleet.agent && are_all_built_in(fleet, built_in)) {
         fleet.options.agent = fleet.bin_dir / programs::kAgent;
-        fleet = plan_fleet(fleet.options, fleet.bin_dir);
+        fleet = plan_fleet(fleet.options, fleet.bin_dir, processes);
       }
-      fleet.options.one_process = !options.dds && !needs_processes(fleet);
       media.insert(medium_of(fleet));
       // Scenes that differ only in scene seed or conditions are equally valid for a program.
       const bool another_seed = s > 0 && (options.scene_seeds || plan.scenes[s].conditions) &&
