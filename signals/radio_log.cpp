@@ -89,7 +89,7 @@ std::optional<RadioStream> stream_of(const std::string& channel, const std::vect
 class LogReader {
  public:
   LogReader(const std::filesystem::path& file, const Scenario& scenario)
-      : reader_(file), scenario_(scenario), nodes_(scenario.uav_names()) {
+      : reader_(mcap::Reader::whole(file)), scenario_(scenario), nodes_(scenario.uav_names()) {
     nodes_.push_back(scenario.node_name(kStationNode));
     for (const RadioRoute& route : radio_routes(scenario))
       add_stream({scenario.node_name(route.source), route.ros_topic});

@@ -39,7 +39,8 @@ struct RadioLog {
   std::map<std::pair<std::string, std::string>, std::vector<DebugValue>> debug;  ///< by UAV and name
 };
 
-/// @throws InputError when there is no recording, or it is damaged: a run flown with `--record=none` has none.
+/// @throws InputError when there is no recording (a run flown with `--record=none` has none), or it is damaged or cut
+///   off.
 RadioLog read_radio_log(const std::filesystem::path& dir, const Scenario& scenario);
 
 }  // namespace skein::signals

@@ -315,6 +315,13 @@ TEST_F(RunSignalsTest, ADebugValueHoldsUntilTheNextOne) {
 
 TEST_F(RunSignalsTest, WithoutARecordingThereAreNoMessages) { EXPECT_THROW(number("sent"), InputError); }
 
+TEST_F(RunSignalsTest, ARecordingThatIsCutOffIsRefused) {
+  write_recording(run_.dir, {{"/a/plan", 0, 2}}, {});
+  const auto file = run_.dir / run_folder::kRecording;
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  EXPECT_THROW(number("sent"), InputError);
+}
+
 TEST_F(RunSignalsTest, EverySignalOfTheTableIsKnown) {
   write_recording(run_.dir, {}, {});
   const SignalNames names(scenario_);
