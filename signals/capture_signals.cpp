@@ -167,6 +167,7 @@ bool FolderSignals::has_path(const std::string& uav, std::size_t from, std::size
   const auto& back = use("link", {station, uav});
   const auto& sender = use("member", {uav});
   const auto& receiver = use("member", {programs::kStation});
+  to = std::min(to, exchanges_);  // events may follow the end that the result states
   std::size_t k = from;
   while (k < to && !passes(there, sender, receiver, k)) ++k;
   for (++k; k < to; ++k) {

@@ -217,6 +217,15 @@ TEST_F(RunSignalsTest, APathIsALinkToTheStationAndThenOneBack) {
   EXPECT_GT(without, 30);
 }
 
+TEST_F(RunSignalsTest, APathIsSoughtOnlyWithinTheRun) {
+  run_.events = {{0, "joined", "a", ""},
+                 {kExchanges, "captured", "a", "0"},
+                 {10'000'000, "released", "a", "0"},
+                 {5, "captured", "a", "1"},
+                 {10'000'000, "released", "a", "1"}};
+  EXPECT_EQ(number("acknowledged_with_path"), steps({}));
+}
+
 TEST_F(RunSignalsTest, TakenOverWorkIsThatWhichNoOtherUavWouldHaveDone) {
   results::RunRecord undisturbed = run_;
   undisturbed.result["score"] = 9.0;
