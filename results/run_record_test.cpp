@@ -105,6 +105,21 @@ TEST_P(DrawnFolder, IsReadAsItWasWritten) {
   EXPECT_EQ(tracks[0].size() + tracks[1].size(), shown.poses.size());
 }
 
+TEST_P(DrawnFolder, AnEventOfACaptureWithoutItsNumberIsRefusedWithItsLine) {
+  for (const char* event : {"captured", "released"}) {
+    for (const char* number : {"x", "", "1x", "-1", "99999999999999999999"}) {
+      lines_.at(run_folder::kEvents)[0] = std::string("0,0,") + event + ",a," + number;
+      write(run_folder::kEvents);
+      try {
+        read_run(dir());
+        ADD_FAILURE() << event << " of '" << number << "'";
+      } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("events.csv:2: column 'object': "), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
 TEST_P(DrawnFolder, ADamagedRowIsRefusedWithItsLineOrEndsItsTable) {
   for (const std::string table : kTables) {
     const auto sound = lines_.at(table);

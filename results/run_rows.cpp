@@ -50,11 +50,13 @@ CaptureRow CaptureRow::read(const CsvTable& table) {
 }
 
 EventRow EventRow::read(const CsvTable& table) {
-  return {.step = table.count(kStep),
-          .event = table.text("event"),
-          .subject = table.text("subject"),
-          .object = table.text("object"),
-          .time_s = bounded(table, kTime)};
+  EventRow row{.step = table.count(kStep),
+               .event = table.text("event"),
+               .subject = table.text("subject"),
+               .object = table.text("object"),
+               .time_s = bounded(table, kTime)};
+  if (row.is_of_a_capture()) table.count("object");  // refuses what is no number
+  return row;
 }
 
 MessageRow MessageRow::read(const CsvTable& table) {

@@ -56,6 +56,9 @@ struct EventRow {
   double time_s = 0.0;          ///< of the step
 
   bool is_of_a_link() const { return event == run_tables::kLinkUp || event == run_tables::kLinkDown; }
+  bool is_of_a_capture() const { return event == run_tables::kCaptured || event == run_tables::kReleased; }
+  /// Number of the capture, if it is an event of a capture; read() refuses other texts there.
+  std::uint64_t capture() const { return std::stoull(object); }
 };
 
 /// A message with capture reports that was lost or late on a link with faults.

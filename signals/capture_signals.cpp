@@ -26,9 +26,8 @@ std::vector<Acknowledged> acknowledged_captures(const results::RunRecord& run, c
   std::map<CaptureKey, std::size_t> taken;
   std::vector<Acknowledged> all;
   for (const results::EventRow& row : run.events) {
-    const bool is_capture = row.event == run_tables::kCaptured || row.event == run_tables::kReleased;
-    if (!is_capture || (!uav.empty() && row.subject != uav)) continue;
-    const CaptureKey capture{row.subject, std::stoull(row.object)};
+    if (!row.is_of_a_capture() || (!uav.empty() && row.subject != uav)) continue;
+    const CaptureKey capture{row.subject, row.capture()};
     if (row.event == run_tables::kCaptured) {
       taken.emplace(capture, row.step);
     } else {

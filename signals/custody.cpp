@@ -53,8 +53,8 @@ class Timeline {
         present_[row.subject].set(row.step, row.event == run_tables::kJoined);
       if (row.is_of_a_link() && row.object == station)
         linked_[row.subject].set(row.step, row.event == run_tables::kLinkUp);
-      if (row.event == run_tables::kCaptured) captured_[row.subject][row.step].push_back(std::stoull(row.object));
-      if (row.event == run_tables::kReleased) released_[{row.subject, std::stoull(row.object)}] = row.step;
+      if (row.event == run_tables::kCaptured) captured_[row.subject][row.step].push_back(row.capture());
+      if (row.event == run_tables::kReleased) released_[{row.subject, row.capture()}] = row.step;
     }
     for (const results::MessageRow& row : run.messages) messages_[{row.uav, row.step}] = row.arrives;
   }
