@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 
 #include "core/types.hpp"
 #include "results/csv_table.hpp"
@@ -62,11 +63,18 @@ std::string TrackingTable::csv() const {
 
 void read_tracking(const std::filesystem::path& file, TrackingTable& table) {
   if (!std::filesystem::exists(file)) throw InputError(file.string() + ": cannot be read");
-  const auto step = [](double value, double size) { return static_cast<int>(std::lround(value / size)); };
-  for (CsvTable rows(file); rows.next();) {
-    table.add({.speed = step(rows.number("speed_mps"), TrackingTable::kSpeedStepMps),
-               .acceleration = step(rows.number("acceleration_mps2"), TrackingTable::kAccelerationStepMps2),
-               .error = step(rows.number("error_m"), TrackingTable::kErrorStepM),
+  CsvTable rows(file);
+  const auto step = [&rows](const char* column, double size) {
+    const double steps = rows.number(column) / size;
+    if (steps < 0.0 || steps > 1e9) {  // a bin's numbers are of type int
+      rows.fail(std::string("column '") + column + "': '" + rows.text(column) + "' is out of all bounds");
+    }
+    return static_cast<int>(std::lround(steps));
+  };
+  while (rows.next()) {
+    table.add({.speed = step("speed_mps", TrackingTable::kSpeedStepMps),
+               .acceleration = step("acceleration_mps2", TrackingTable::kAccelerationStepMps2),
+               .error = step("error_m", TrackingTable::kErrorStepM),
                .vehicle = rows.text("vehicle")},
               rows.count("samples"));
   }

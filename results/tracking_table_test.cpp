@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/math/random_stream.hpp"
+#include "results/testing/scratch.hpp"
 
 namespace skein::results {
 namespace {
@@ -59,6 +60,21 @@ TEST(TrackingTable, AnErrorBeyondTheTableCountsInItsLastBin) {
   }
   EXPECT_GE(table.quantiles().p50, TrackingTable::kMostErrorM);
   EXPECT_EQ(table.bins().size(), 1U);
+}
+
+TEST(TrackingTable, AFileWithNumbersBeyondTheTableIsRefusedWithItsLine) {
+  const Scratch dir;
+  const std::string head = "vehicle,speed_mps,acceleration_mps2,error_m,samples\nexplorer,1,1,0.01,3\n";
+  for (const char* row : {"explorer,1e300,0,0,1", "explorer,0,-1,0,1", "explorer,0,0,1e8,1"}) {
+    write_text(dir.path() / "tracking.csv", head + row + "\n");
+    TrackingTable table;
+    try {
+      read_tracking(dir.path() / "tracking.csv", table);
+      ADD_FAILURE() << row;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("tracking.csv:3: column '"), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace
