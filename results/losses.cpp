@@ -85,7 +85,8 @@ std::string text(double value) { return Json(value).dump(); }
 std::string csv_line(std::size_t index, const Json& place, const PointRecord& point, const PointLoss& loss) {
   std::ostringstream line;
   line << index;
-  for (std::size_t axis = 0; axis < 3; ++axis) line << ',' << (axis < place.size() ? place[axis].dump() : "");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    line << ',' << (place.is_array() && axis < place.size() ? place[axis].dump() : "");
   line << ',' << text(point.estimate) << ',' << text(point.score) << ',' << name_of(loss.cause) << ','
        << text(loss.loss);
   line << ',';

@@ -54,6 +54,15 @@ TEST_F(RunLosses, TheTableHasALineForEachPoint) {
             "4,4,1.5,2,0.0,0.25,above_estimate,-0.25,alpha,1,0.25,1.0,1.0,0.25,\n");
 }
 
+TEST_F(RunLosses, ADamagedPlaceInTheSceneIsLeftEmpty) {
+  write_text(dir_.path() / "scene.json", R"({"points": [5, {"x": 1}, null, "x", [4]]})");
+  EXPECT_EQ(losses()["tilt"], (Json{{"points", 1}, {"score", 0.5}}));
+  const std::string csv = read_text(dir_.path() / "losses.csv");
+  for (const char* line : {"\n0,,,,1.0,", "\n1,,,,0.75,", "\n2,,,,1.0,", "\n3,,,,0.5,", "\n4,4,,,0.0,"}) {
+    EXPECT_NE(csv.find(line), std::string::npos) << csv;
+  }
+}
+
 /// The losses as the parts of `below_threshold` by key: points and score.
 std::map<std::string, std::pair<std::size_t, double>> parts_of(const Json& losses) {
   std::map<std::string, std::pair<std::size_t, double>> parts;
