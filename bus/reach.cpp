@@ -184,7 +184,8 @@ Reach find_reach(const DomainNetwork& network, const std::string& domain, std::c
   if (!network.peers.empty() && reach.peers.empty()) {
     reach.peers.push_back(reach.address.empty() ? "127.0.0.1" : reach.address);
   }
-  reach.largest_datagram = mtu_of(reach.address) - kIpAndUdpHeaders;
+  // The loopback interface has an MTU of 65536, which no UDP datagram fills.
+  reach.largest_datagram = std::min(reach.largest_datagram, mtu_of(reach.address) - kIpAndUdpHeaders);
   return reach;
 }
 

@@ -116,6 +116,12 @@ TEST_F(ReachTest, AnAddressThatWasLookedUpBeforeIsNotLookedUpAgain) {
   EXPECT_EQ(reach.address, address_text(*source)) << "the address from which packets to that peer leave";
 }
 
+TEST_F(ReachTest, ADatagramOverTheLoopbackInterfaceIsNotLargerThanUdpAllows) {
+  const Reach reach = find_reach({.interface = "lo", .peers = {}}, "world", milliseconds(0), Addresses{});
+  EXPECT_GT(reach.largest_datagram, 0U);
+  EXPECT_LE(reach.largest_datagram, 65507U);
+}
+
 TEST_F(ReachTest, WithoutAKnownPeerTheOwnAddressIsUnknown) {
   const DomainNetwork network{.interface = "", .peers = {"a.invalid", "b.invalid"}};
   try {
