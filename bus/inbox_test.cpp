@@ -51,6 +51,26 @@ TEST_F(InboxTest, HandlersRunInDispatchInOrderOfArrival) {
   EXPECT_EQ(reader_a->matched(), std::vector<ParticipantId>{there_->id()});
 }
 
+TEST_F(InboxTest, ABusThatHasVanishedSendsNothingMoreAndIsMatchedByNone) {
+  const auto other = make_bus({.vendor = "inproc"});
+  const auto dead = other->join(domains_.base());
+  int here = 0, there = 0;
+  const auto reader = here_->create_reader(topic("a"), [&here](const auto&) { ++here; });
+  const auto dead_reader = dead->create_reader(topic("a"), [&there](const auto&) { ++there; });
+  const auto writer = there_->create_writer(topic("a")), dead_writer = dead->create_writer(topic("a"));
+  dead_writer->write(payload(1));
+  EXPECT_TRUE(dead_writer->has_readers());
+  other->vanish();
+  dead_writer->write(payload(2));
+  writer->write(payload(3));
+  EXPECT_EQ(here, 2) << "what the dead bus writes still arrives";
+  EXPECT_EQ(there, 0);
+  EXPECT_FALSE(dead_writer->has_readers());
+  EXPECT_TRUE(dead_writer->matched().empty());
+  EXPECT_TRUE(dead_reader->matched().empty());
+  EXPECT_EQ(writer->matched(), std::vector<ParticipantId>{here_->id()});
+}
+
 TEST_F(InboxTest, WakeEndsTheWait) {
   Inbox inbox(0);
   std::thread other([&inbox] { inbox.wake(); });

@@ -23,11 +23,11 @@ struct Endpoint {
   Channel& channel;
   ParticipantId participant = 0;
   TopicSpec topic;
+  bool alive = true;  ///< false: removed, perhaps by a callback during a delivery to it, or its bus has vanished
 };
 
 struct ReaderEnd : Endpoint {
   OnSample on_sample;
-  bool alive = true;  // false: destroyed, perhaps by a callback during a delivery to it
 };
 
 struct WriterEnd : Endpoint {
@@ -62,10 +62,11 @@ Ends<End> remove_from(std::shared_ptr<const Ends<End>>& ends, Condition conditio
 }
 
 /// Whether two endpoints on one topic match, by DDS's rules: same type, and the writer offers at least the QoS that the
-/// reader requests. Endpoints of one participant do not match.
+/// reader requests. Endpoints of one participant do not match, and removed ones match none.
 bool match(const WriterEnd& writer, const ReaderEnd& reader) {
-  return writer.participant != reader.participant && writer.topic.type == reader.topic.type &&
-         writer.topic.qos.reliable >= reader.topic.qos.reliable && writer.topic.qos.latched >= reader.topic.qos.latched;
+  return writer.alive && reader.alive && writer.participant != reader.participant &&
+         writer.topic.type == reader.topic.type && writer.topic.qos.reliable >= reader.topic.qos.reliable &&
+         writer.topic.qos.latched >= reader.topic.qos.latched;
 }
 
 /// All endpoints of this process. Each domain has its own lock, so that agents on different threads do not wait for
@@ -125,7 +126,7 @@ class Exchange {
     const auto theirs = [&](const Endpoint& end) { return participants.contains(end.participant); };
     for (Channel* channel : channels()) {
       const std::scoped_lock lock(*channel->mutex);
-      remove_from(channel->writers, theirs);
+      for (const auto& writer : remove_from(channel->writers, theirs)) writer->alive = false;
       for (const auto& reader : remove_from(channel->readers, theirs)) reader->alive = false;
     }
   }
