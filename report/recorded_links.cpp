@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/text/text.hpp"
@@ -14,10 +15,11 @@ bool cuts(const results::RunFault& fault) {
   return fault.kind == "blackout" || fault.kind == "station_outage" || fault.kind == "partition";
 }
 
-/// Number of a radio node: 1, 2, ... for UAVs in fleet order; 0 for the station and any other name.
-std::size_t node_of(const results::RunRecord& run, const std::string& name) {
+/// Number of a radio node: 1, 2, ... for UAVs in fleet order, 0 for the station; nullopt: the fleet has no such node.
+std::optional<std::size_t> node_of(const results::RunRecord& run, const std::string& name) {
+  if (name == "gcs") return 0;
   const auto uav = run.uav_of(name);
-  return uav ? *uav + 1 : 0;
+  return uav ? std::optional(*uav + 1) : std::nullopt;
 }
 
 /// Number of each node's group in a partition like "gcs jurong | raffles". A node that is in no group forms its own.
@@ -28,7 +30,7 @@ std::vector<std::size_t> groups_of(const results::RunRecord& run, const std::str
   for (const std::string& names : split(partition, '|')) {
     ++group;
     for (const std::string& name : split(names, ' ')) {
-      if (!name.empty()) groups[node_of(run, name)] = group;
+      if (const auto node = node_of(run, name)) groups[*node] = group;
     }
   }
   return groups;
@@ -40,7 +42,7 @@ class Cut {
   Cut(const results::RunRecord& run, const results::RunFault& fault)
       : fault_(fault),
         groups_(fault.kind == "partition" ? groups_of(run, fault.target) : std::vector<std::size_t>()),
-        silent_(node_of(run, fault.kind == "blackout" ? fault.target : "")) {}
+        silent_(node_of(run, fault.kind == "blackout" ? fault.target : "gcs")) {}
 
   bool is_active(double time_s) const { return time_s >= fault_.from_s && time_s < fault_.until_s; }
   bool parts(std::size_t a, std::size_t b) const {
@@ -51,7 +53,7 @@ class Cut {
  private:
   const results::RunFault& fault_;
   const std::vector<std::size_t> groups_;
-  const std::size_t silent_;
+  const std::optional<std::size_t> silent_;
 };
 
 class Links {
@@ -62,8 +64,8 @@ class Links {
       if (cuts(fault)) cuts_.emplace_back(run, fault);
     }
     for (const results::RunCollision& collision : run.collisions) {
-      double& dead_s = dead_s_[node_of(run, collision.uav)];
-      if (run.uav_of(collision.uav)) dead_s = std::min(dead_s, collision.time_s);
+      const auto uav = run.uav_of(collision.uav);
+      if (uav) dead_s_[*uav + 1] = std::min(dead_s_[*uav + 1], collision.time_s);
     }
   }
 
@@ -116,8 +118,8 @@ std::vector<std::pair<double, LinkStates>> recorded_links(const results::RunReco
     const double time_s = change->first;
     for (; change != changes.end() && change->first == time_s; ++change) {
       if (change->second == nullptr) continue;
-      links.set(node_of(run, change->second->subject), node_of(run, change->second->object),
-                change->second->event == run_tables::kLinkUp);
+      const auto from = node_of(run, change->second->subject), to = node_of(run, change->second->object);
+      if (from && to) links.set(*from, *to, change->second->event == run_tables::kLinkUp);
     }
     LinkStates now = links.shown(time_s);
     if (told.empty() || told.back().second != now) told.emplace_back(time_s, std::move(now));

@@ -75,6 +75,15 @@ TEST(RecordedLinks, LinksBetweenTheGroupsOfAPartitionAreCut) {
   EXPECT_EQ(digits(run, 35.0), "010000000") << "a killed program cuts no link";
 }
 
+TEST(RecordedLinks, AFaultOrEventOfAnUnknownNodeChangesNoLink) {
+  results::RunRecord run = two_uavs();
+  add_link_events(run, 5.0, "gcs");
+  run.faults = {{"blackout", "nobody", 10.0, 20.0}, {"partition", "a b gcs | nobody", 10.0, 20.0}};
+  run.events.push_back({0, run_tables::kLinkUp, "nobody", "a", 11.0});
+  EXPECT_EQ(digits(run, 6.0), "000001010");
+  EXPECT_EQ(digits(run, 12.0), "000001010");
+}
+
 TEST(RecordedLinks, LinksOfTheStationAreCutDuringAStationOutage) {
   results::RunRecord run = two_uavs();
   run.faults = {{"station_outage", "gcs", 10.0, 20.0}};
