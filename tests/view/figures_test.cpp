@@ -20,5 +20,14 @@ TEST_F(PoorPictures, AreShownWithThePartOfTheQualityThatLowersItMost) {
   EXPECT_EQ(node.out(), "");
 }
 
+class EarlyDeliveries : public FleetTest {};
+
+TEST_F(EarlyDeliveries, AreShownOnceTheirCapturesHaveArrived) {
+  if (command_file("node").empty()) GTEST_SKIP() << "Node.js is not installed";
+  ChildProcess& node = start_program("deliveries", {command_file("node"), source_path("tests/view/deliveries.mjs")});
+  EXPECT_EQ(node.wait(kBrowserPatience).code, 0) << node.err();
+  EXPECT_EQ(node.out(), "");
+}
+
 }  // namespace
 }  // namespace skein::test

@@ -186,6 +186,10 @@ export function makeFlight(data) {
       take[line.k]?.(line);
       data.end = Math.max(data.end, line.t ?? 0);
     }
+    // No capture need follow the last deliveries of a restarted station. A batch that ends with a capture may be cut
+    // off between captures: a delivery that was later than the next of them would come too early.
+    if (lines.at(-1)?.k === 'capture') return;
+    while (early.length > 0 && delivered(...early[0])) early.shift();
   }
 
   /** Takes the newest state of a live flight. */
