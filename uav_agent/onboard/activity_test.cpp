@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -78,32 +79,48 @@ TEST_F(ActivityWords, DifferForAllStatesOfAUav) {
   EXPECT_EQ(last_.mode, "shows changi its way up");
 }
 
-/// The beginnings of the texts to which the live page gives a colour of their own.
-std::vector<std::string> beginnings_on_the_page() {
-  std::ifstream page(source_path("web/src/modes.js"));
-  std::vector<std::string> beginnings;
-  const std::regex quoted("'([^']+)'");
-  for (std::string line; std::getline(page, line);) {
-    const auto list = line.find("begins: [");
-    if (list == std::string::npos) continue;
-    for (std::sregex_iterator it(line.begin() + static_cast<std::ptrdiff_t>(list), line.end(), quoted), end; it != end;
+/// The texts in quotes in those lines of a file that contain `mark`, after it.
+std::vector<std::string> quoted_after(const std::string& mark, const std::string& file, const std::string& quoted) {
+  std::ifstream in(source_path(file));
+  std::vector<std::string> texts;
+  const std::regex pattern(quoted);
+  for (std::string line; std::getline(in, line);) {
+    const auto at = line.find(mark);
+    if (at == std::string::npos) continue;
+    for (std::sregex_iterator it(line.begin() + static_cast<std::ptrdiff_t>(at), line.end(), pattern), end; it != end;
          ++it) {
-      beginnings.push_back((*it)[1]);
+      texts.push_back((*it)[1]);
     }
   }
-  return beginnings;
+  return texts;
 }
 
-TEST_F(ActivityWords, HaveAColourOnTheLivePage) {
-  const std::vector<std::string> beginnings = beginnings_on_the_page();
-  ASSERT_GT(beginnings.size(), 10u);
+TEST_F(ActivityWords, AreKnownToTheLivePageAndToTheReport) {
+  // The beginnings of the texts to which the page gives a colour, and the report a use of the time, of their own.
+  const std::map<std::string, std::vector<std::string>> known = {
+      {"live page", quoted_after("begins: [", "web/src/modes.js", "'([^']+)'")},
+      {"report", quoted_after("{\"", "report/time_budget.cpp", "\\{\"([^\"]+)\", TimeUse::")}};
+  std::set<std::string> words;
   for (int what = 0; what <= static_cast<int>(What::awaits_link); ++what) {
     doing(static_cast<What>(what));
     facts_.tick += 400;
     step();
     steps(20);
-    const auto begins = [&](const std::string& beginning) { return last_.mode.starts_with(beginning); };
-    EXPECT_TRUE(std::ranges::any_of(beginnings, begins)) << last_.mode;
+    words.insert(last_.mode);
+  }
+  for (int kind = 0; kind <= static_cast<int>(OwnMotion::Kind::command); ++kind) {
+    facts_.what = OwnMotion{static_cast<OwnMotion::Kind>(kind)};
+    facts_.tick += 400;
+    step();
+    steps(20);
+    words.insert(last_.mode);
+  }
+  for (const auto& [reader, beginnings] : known) {
+    ASSERT_GT(beginnings.size(), 10u) << reader;
+    for (const std::string& mode : words) {
+      const auto begins = [&](const std::string& beginning) { return mode.starts_with(beginning); };
+      EXPECT_TRUE(std::ranges::any_of(beginnings, begins)) << mode << " is unknown to the " << reader;
+    }
   }
 }
 
