@@ -9,6 +9,7 @@
 #include "core/types.hpp"
 #include "doctor/machine_judges.hpp"
 #include "doctor/network_judges.hpp"
+#include "doctor/peers.hpp"
 #include "doctor/software_judges.hpp"
 #include "process/host/address_text.hpp"
 
@@ -28,13 +29,7 @@ DomainNetworkFacts read_network_of(const std::string& domain, const DomainNetwor
   DomainNetworkFacts facts{.domains = {domain}, .network = network};
   if (network.host_only()) return facts;
   const bus::Addresses addresses = bus::look_up_all(network.peers);
-  for (const std::string& name : network.peers) {
-    PeerFacts& peer = facts.peers.emplace_back(PeerFacts{.name = name});
-    const auto address = addresses.find(name);
-    if (address == addresses.end()) continue;
-    peer.address = address_text(address->second);
-    if (const auto source = bus::source_towards(address->second)) peer.source = address_text(*source);
-  }
+  facts.peers = peers_of(network.peers, addresses);
   try {
     facts.address = bus::find_reach(network, domain, std::chrono::milliseconds(0), addresses).address;
   } catch (const InputError& error) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -16,7 +17,7 @@
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
 #include "doctor/greeting_socket.hpp"
-#include "process/host/address_text.hpp"
+#include "doctor/peers.hpp"
 #include "process/host/host_name.hpp"
 
 namespace skein::doctor {
@@ -99,26 +100,17 @@ class Host {
  private:
   const DomainNetwork& network_of(const Meeting& meeting) const { return visit_.network.of(meeting.domain); }
 
-  /// Looks up each peer once. @returns whether all addresses are known.
-  static bool look_up_peers(const DomainNetwork& network, Meeting& meeting) {
-    meeting.peers.clear();
-    bool all = true;
-    for (const std::string& name : network.peers) {
-      PeerFacts& peer = meeting.peers.emplace_back(PeerFacts{.name = name});
-      const auto address = bus::look_up(name);
-      all = all && address;
-      if (!address) continue;
-      peer.address = address_text(*address);
-      if (const auto source = bus::source_towards(*address)) peer.source = address_text(*source);
-    }
-    return all;
-  }
+  /// Looks up all peers in parallel, again and again until all are known.
   void look_up_peers() {
+    std::set<std::string> names;
+    for (const Meeting& meeting : all_.domains) {
+      names.insert(network_of(meeting).peers.begin(), network_of(meeting).peers.end());
+    }
     const auto deadline = SteadyClock::now() + visit_.time;
     while (!stop_.requested()) {
-      bool all = true;
-      for (Meeting& meeting : all_.domains) all = look_up_peers(network_of(meeting), meeting) && all;
-      if (all || SteadyClock::now() >= deadline) return;
+      const bus::Addresses addresses = bus::look_up_all({names.begin(), names.end()});
+      for (Meeting& meeting : all_.domains) meeting.peers = peers_of(network_of(meeting).peers, addresses);
+      if (addresses.size() == names.size() || SteadyClock::now() >= deadline) return;
       inbox_.dispatch(kAskAgain);  // no event reports that a name has become known
     }
   }
