@@ -238,8 +238,8 @@ void Inbox::note_malformed(const std::string& topic, const Sample& sample) {
 
 void Inbox::note_foreign(const std::string& topic, const Sample& sample, RunId run) {
   if (!told_foreign_.insert(topic).second) return;
-  spdlog::warn("{}: participant {:016x} takes part in another run ({}, not {}) and is not listened to", topic,
-               sample.source, static_cast<std::uint64_t>(run), static_cast<std::uint64_t>(run_));
+  spdlog::warn("{}: participant {:016x} takes part in another run ({}, not {}) and is ignored", topic, sample.source,
+               static_cast<std::uint64_t>(run), static_cast<std::uint64_t>(run_));
 }
 
 }  // namespace skein::bus

@@ -14,7 +14,9 @@ namespace {
 
 /// Without a launcher, no other process could continue a stopped program. So a fault that stops the program only
 /// removes it from the run: it asks to join again at once, and waits until the fault is over.
-void stand_aside() { spdlog::info("there is no launcher that would continue it: it waits to be let back"); }
+void stand_aside() {
+  spdlog::info("no launcher could continue this program: it leaves the run and joins again when the fault ends");
+}
 
 /// How long to look for the server [s]. A program that is restarted during a run finds it soon, or the run is over.
 double patience_with_server_s(const ProgramOptions& options) {

@@ -12,7 +12,7 @@ namespace {
 std::string describe(const CountedQueues::Surplus& surplus, bool was_cut_off) {
   const std::string counts = std::to_string(surplus.arrived) + " samples on " + surplus.topic + ", " +
                              std::to_string(surplus.announced) + " announced by its done";
-  if (was_cut_off) return "what it had said came twice: " + counts;
+  if (was_cut_off) return "samples that it had sent arrived twice: " + counts;
   return "sent more than it announced: " + counts + " (docs/lockstep.md, \"Rules for a client\")";
 }
 

@@ -161,9 +161,9 @@ std::vector<LockstepServer::Awaited> LockstepServer::awaited_at_boundary() const
     if (at_the_door && place.source == 0) {
       result.push_back({place.name, "nothing heard of it yet"});
     } else if (at_the_door && !place.declared) {
-      result.push_back({place.name, "its topics still match those of sim_server"});
+      result.push_back({place.name, "its topics have not yet matched those of sim_server"});
     } else if (at_the_door && !endpoints_matched(place)) {
-      result.push_back({place.name, "topics of sim_server still match its own"});
+      result.push_back({place.name, "topics of sim_server have not yet matched its own"});
     } else if (!attached_by_router(place)) {
       const std::string what = awaited_by_router(place);
       const bool gone = !contains(door_of(place).ready->matched(), place.source);

@@ -63,7 +63,8 @@ TEST_P(Unattended, FaultsHaveTheSameEffectAsUnderTheLauncher) {
   for (const std::string& victim : victims) {
     const std::string program = fleet_.contains(victim) ? victim : "uav_agent-" + victim;
     EXPECT_NE(said(program).find("here it starts again"), std::string::npos) << program << ": " << said(program);
-    EXPECT_NE(said(program).find("waits to be let back"), std::string::npos) << program << ": " << said(program);
+    EXPECT_NE(said(program).find("joins again when the fault ends"), std::string::npos)
+        << program << ": " << said(program);
   }
   const Json station = Json::parse(text_of(dir_ / "station.report.json"));
   EXPECT_EQ(station["score"], launched.result()["score"]);
