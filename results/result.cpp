@@ -162,8 +162,8 @@ void warn_of_missing(const RunFacts& facts, const Reports& reports, Texts& warni
     const bool expected = facts.out_by_fault.contains(program);  // `faults` already explains it
     if (!report && !expected) warnings.push_back(program + " left no report: " + consequence);
   };
-  missing(reports.sim_server, programs::kSimServer, "times are the last that it told");
-  missing(reports.station, programs::kStation, "the score is the last that it told");
+  missing(reports.sim_server, programs::kSimServer, "times are the last that it reported");
+  missing(reports.station, programs::kStation, "the score is the last that it reported");
   missing(reports.comm_router, programs::kCommRouter, "radio counts are unknown");
   for (const UavPlanner& planner : facts.planners) {
     const auto report = reports.agents.find(planner.uav);

@@ -57,7 +57,7 @@ class DrawnFolder : public testing::TestWithParam<unsigned> {
   /// Whether the run notes that only the first `rows` rows of this table are valid.
   static bool is_told(const RunRecord& run, const std::string& table, std::size_t rows) {
     return std::ranges::any_of(run.missing, [&](const std::string& sentence) {
-      return sentence.starts_with(table + " makes sense for " + std::to_string(rows) + " rows only (");
+      return sentence.starts_with(table + " is readable only up to row " + std::to_string(rows) + " (");
     });
   }
   /// The rows of kTables as text, by table.

@@ -112,7 +112,7 @@ std::string no_file(const char* file) { return std::string(kThereIsNo) + file + 
 
 std::string damaged_table(const std::filesystem::path& dir, const char* table, std::size_t rows, const char* what) {
   const std::string why = what, folder = dir.string() + "/";
-  return std::string(table) + " makes sense for " + std::to_string(rows) + " rows only (" +
+  return std::string(table) + " is readable only up to row " + std::to_string(rows) + " (" +
          (why.starts_with(folder) ? why.substr(folder.size()) : why) + ").";
 }
 
