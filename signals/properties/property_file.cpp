@@ -154,8 +154,7 @@ PropertySet parse_properties(const PropertyEntries& entries, const std::string& 
   for (const auto& [name, entry] : entries) {
     const std::string path = key + "." + name;
     if (!is_property_name(name)) {
-      errors.check(false, path,
-                   "no property can have this name: letters, digits, '_' and '-' make one, 1 to 64 of them");
+      errors.check(false, path, "a property's name consists of 1 to 64 letters, digits, '_' and '-'");
       continue;
     }
     const std::string* text = std::get_if<std::string>(&entry);

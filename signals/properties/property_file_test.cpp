@@ -77,7 +77,7 @@ TEST_F(PropertyFiles, NamesThatCouldBePathsAreRefused) {
   const std::string longest(64, 'a');
   for (const std::string& name : std::vector<std::string>{"../../x", "a/b", ".", "a b", "ä", longest + "a"}) {
     refused("properties:\n  low: always held < 30\n  '" + name + "': always held < 30\n",
-            ":3: properties." + name + ": no property can have this name: letters, digits, '_' and '-'");
+            ":3: properties." + name + ": a property's name consists of 1 to 64 letters, digits, '_' and '-'");
   }
   EXPECT_EQ(load("properties:\n  " + longest + ": always held < 30\n  A-b_2: always held < 30\n").size(), 2U);
 }

@@ -105,7 +105,8 @@ class Reader {
     property_.window_at = parser_.at();
     bool has_beginning = false;
     const auto begins = [&](std::size_t at) {
-      if (std::exchange(has_beginning, true)) ExpressionText::fail(at, "it begins once: one 'after', or one 'from'");
+      if (std::exchange(has_beginning, true))
+        ExpressionText::fail(at, "a window has one beginning: give 'after' or 'from' once");
     };
     for (;;) {
       const std::size_t at = parser_.at();
@@ -125,8 +126,8 @@ class Reader {
     }
     if (property_.kind == Property::Kind::sometimes && (window.within_s || property_.whenever)) {
       ExpressionText::fail(property_.window_at,
-                           "'sometimes' knows no 'within' and no 'whenever': it need not be in "
-                           "each run; 'eventually' must");
+                           "'sometimes' cannot have 'within' or 'whenever', because it need not hold in "
+                           "each run; use 'eventually'");
     }
     const double deadline_s = window.until_s.value_or(window.from_s + window.within_s.value_or(0.0));
     if (!property_.whenever && deadline_s > scenario_.duration_s) refuse_late(property_.window_at, deadline_s);
@@ -222,7 +223,7 @@ std::vector<Property> parse_property(const std::string& name, const std::string&
     reader.variables(names);
     reader.read();
   }
-  if (properties.empty()) ExpressionText::fail(0, "no UAV of this fleet is one that it is about");
+  if (properties.empty()) ExpressionText::fail(0, "this fleet has no UAV for the property's variables");
   return properties;
 }
 

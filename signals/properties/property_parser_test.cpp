@@ -83,9 +83,9 @@ TEST(PropertyParser, WrongPropertiesAreRefusedWithTheColumn) {
   refused("eventually held > 3 within -1 s", 27, "must not be below 0 s");
   refused("always held < 3 from 20 s to 10 s", 29, "the interval is upside down");
   refused("always held < 3 from 20 s", 25, "here must be 'to', not the end");
-  refused("always held < 3 after heal from 1 s to 2 s", 27, "it begins once");
+  refused("always held < 3 after heal from 1 s to 2 s", 27, "a window has one beginning");
   refused("eventually held > 3 within 5 s within 6 s", 31, "stands here already");
-  refused("sometimes held > 3 within 5 s", 19, "knows no 'within'");
+  refused("sometimes held > 3 within 5 s", 19, "cannot have 'within'");
   refused("for u in drones, always held(u) < 3", 9, "there is no set 'drones'");
   refused("for m in uavs, always held(m) < 3", 4, "'m' means something else already");
   refused("for changi in uavs, always held(changi) < 3", 4, "means something else already");
