@@ -136,10 +136,12 @@ Reader::Reader(const std::filesystem::path& file) : file_(file), bytes_(read_fil
 Reader Reader::whole(const std::filesystem::path& file) {
   Reader reader(file);
   if (!reader.complete()) {
-    throw InputError(file.string() + ": the recording is cut off, or its end is damaged; only a whole one will do");
+    throw InputError(
+        file.string() +
+        ": the recording is cut off, or its end is damaged; only a complete, undamaged recording can be used");
   }
   if (const auto damage = reader.damage(); !damage.empty()) {
-    std::string text = file.string() + ": the recording is damaged; only a whole one will do";
+    std::string text = file.string() + ": the recording is damaged; only a complete, undamaged recording can be used";
     for (const std::string& one : damage) text += "\n  " + one;
     throw InputError(text);
   }
