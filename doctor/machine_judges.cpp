@@ -35,7 +35,7 @@ Finding judge_open_files(const MachineFacts& machine, const FleetNeeds& needs) {
   }
   return failure(what, found,
                  "as root raise nofile in /etc/security/limits.conf to " + number +
-                     " and log in anew; a container: --ulimit nofile=" + number);
+                     " and log in again; a container: --ulimit nofile=" + number);
 }
 
 Finding judge_processes(const MachineFacts& machine, const FleetNeeds& needs) {
@@ -43,7 +43,7 @@ Finding judge_processes(const MachineFacts& machine, const FleetNeeds& needs) {
   const Limit most = less_of(less_of(machine.processes, machine.kernel_processes), machine.cgroup.processes);
   if (!most) return fine(what, "no limit");
   const std::string found =
-      fmt::format("{} with threads may run; {} UAVs need about {}", *most, needs.uavs, needs.threads());
+      fmt::format("{} processes and threads may run; {} UAVs need about {}", *most, needs.uavs, needs.threads());
   if (*most >= needs.threads()) return fine(what, found);
   const std::string number = std::to_string(needs.threads());
   // Only the lowest limit is in the way.
@@ -71,7 +71,7 @@ Finding judge_buffers(const MachineFacts& machine) {
 Finding judge_memory(const MachineFacts& machine, const FleetNeeds& needs) {
   const std::string what = "memory";
   const Limit left = less_of(machine.memory, machine.cgroup.memory_left);
-  if (!left) return fine(what, "how much there is cannot be seen from here");
+  if (!left) return fine(what, "the available memory cannot be determined");
   const bool by_cgroup = left == machine.cgroup.memory_left;
   const std::string found =
       fmt::format("{} available{}; {} UAVs need about {}", megabytes(*left), by_cgroup ? " in this cgroup" : "",
@@ -100,7 +100,7 @@ Finding judge_disk(const DiskFacts& disk) {
     return failure(what, folder + " takes no file: " + disk.create_error,
                    "another folder with --out, or its permissions");
   }
-  if (!disk.free) return fine(what, folder + "; how much is free is not told");
+  if (!disk.free) return fine(what, folder + "; the free space is unknown");
   const std::string found = folder + " has " + megabytes(*disk.free) + " free";
   const std::string fix = "make room, or another folder with --out";
   if (*disk.free < kLeastDisk) return failure(what, found + ", less than a run writes", fix);
@@ -123,7 +123,8 @@ Findings judge_clocks(const ClockFacts& clocks) {
   }
   const std::string dates = "no result depends on it; fleets of both vendors on several hosts need its agreement";
   if (clocks.date_s < kYear2020) {
-    findings.push_back(warning("time of day", "it is before 2020; " + dates + ", and certificates of --secure the date",
+    findings.push_back(warning("time of day",
+                               "it is before 2020; " + dates + ", and the certificates of --secure need the date",
                                "set the host's date"));
   } else if (std::abs(clocks.realtime_s - clocks.monotonic_s) > kStepS) {
     findings.push_back(warning("time of day", "it is being set right now; " + dates, "try again"));

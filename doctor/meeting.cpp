@@ -84,7 +84,7 @@ bool mixes_vendors(const Meeting& meeting, const Acquaintance& other) {
 std::pair<Verdict, std::string> judge_heard(const Meetings& all, const Meeting& meeting, const Acquaintance& other) {
   if (other.dds.empty()) return {Verdict::fail, no_dds_hint(meeting, other)};
   if (!other.small && !other.large) {
-    return {Verdict::ok, fmt::format("its UDP port {} is closed to us; a fleet does without", kGreetingPort)};
+    return {Verdict::ok, fmt::format("its UDP port {} is closed to us; a fleet does not need it", kGreetingPort)};
   }
   if (!other.large && meeting.largest > 0) {
     return {Verdict::fail,

@@ -8,7 +8,7 @@ namespace skein::doctor {
 
 Finding judge_shared_memory(const SharedMemoryFacts& memory) {
   const std::string what = "shared memory";
-  const std::string use = "the fleet's DDS does without, by UDP; ROS 2 nodes on Fast DDS use it among themselves";
+  const std::string use = "the fleet's DDS uses UDP instead; ROS 2 nodes on Fast DDS use it among themselves";
   if (!memory.there) return fine(what, "there is no /dev/shm; " + use);
   const std::string state =
       fmt::format("/dev/shm has {:.0f} MB free{}, {} files of Fast DDS in it", 1e-6 * static_cast<double>(memory.free),
