@@ -243,7 +243,7 @@ std::string machine_section(const RunPage& page) {
   }
   html += "</tbody></table></div></div><div>\n<h3>Machine</h3>\n";
   html += key_figures({{"simulated [s]", cell_of(result, "sim_time_s", 1)},
-                       {"time on the clock [s]", cell_of(result, "wall_time_s", 1)},
+                       {"wall time [s]", cell_of(result, "wall_time_s", 1)},
                        {"times real time", cell_of(result, "real_time_factor", 1)},
                        {"processors in use", fixed(processors_of(result), 2)},
                        {"start-up [s]", cell_of(result, "startup_s", 2)},

@@ -97,7 +97,7 @@ std::string facts(const Json& result) {
   fact("DDS", joined(std::vector<std::string>(vendors.begin(), vendors.end())));
   fact("Skein", text_in(result, "skein_version") + (text_in(result, "math") == "native" ? ", native mathematics" : ""));
   html += "<div class=\"long\"><dt>Digest</dt><dd><code>" +
-          (text_in(result, "digest").empty() ? "none: it would not repeat" : escaped(text_in(result, "digest"))) +
+          (text_in(result, "digest").empty() ? "none: the run is not repeatable" : escaped(text_in(result, "digest"))) +
           "</code></dd></div>\n";
   return html + "</dl>\n";
 }

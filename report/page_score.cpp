@@ -78,9 +78,9 @@ std::string losses_section(const RunPage& page) {
     most = std::max(most, left);
   }
   html +=
-      "<p class=\"soft\">From what full knowledge of the scene could score to what was delivered. Each point loses to "
-      "one "
-      "cause; the bars add up.</p>\n<div class=\"wide\"><table class=\"waterfall\" data-table=\"losses\">\n" +
+      "<p class=\"soft\">From the score attainable with full knowledge of the scene to the delivered score. Each point "
+      "loses to one cause; the bars add up.</p>\n<div class=\"wide\"><table class=\"waterfall\" "
+      "data-table=\"losses\">\n" +
       table_head({"", "Score", "Share", "Points", ""}) + "<tbody>\n";
   html += table_row({"attainable", fixed(*estimate, 1), "100.0 %", cell_of(attainable, "points", 0),
                      bar_cell(0.0, *estimate, most, "whole")},
@@ -139,9 +139,8 @@ std::string boxes_section(const RunPage& page) {
   if (page.run.causes_known) names.push_back("Of estimate");
   for (const std::size_t i : causes) names.push_back("Lost: " + std::string(results::kCauses[i].title));
   html +=
-      "<p class=\"soft\">A point in several boxes counts in the first. The darker, the larger the share of what could "
-      "be "
-      "had there; losses are scores.</p>\n"
+      "<p class=\"soft\">A point in several boxes counts in the first. Darker cells: a larger share of the box's "
+      "attainable score; losses are scores.</p>\n"
       "<div class=\"wide\"><table class=\"heatmap\" data-table=\"boxes\">\n" +
       table_head(names) + "<tbody>\n";
   for (const BoxFigures& box : page.boxes) {
