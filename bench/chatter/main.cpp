@@ -114,7 +114,7 @@ class Chatter final : public skein::bus::ClientNode {
 int main(int argc, char** argv) try {
   std::size_t bytes = 200;
   CLI::App app("Talks to every other node in every step");
-  app.add_option("--bytes", bytes, "Of each message")->check(CLI::Range(8, 4'000'000));
+  app.add_option("--bytes", bytes, "Size of each message [bytes]")->check(CLI::Range(8, 4'000'000));
   CLI11_PARSE(app, argc, argv);
   const skein::Scenario scenario = skein::load_scenario(variable("SKEIN_SCENARIO"), {.needs_scene_files = false});
   const auto bus =

@@ -288,8 +288,8 @@ int main(int argc, char** argv) try {
   app.add_option("--router", options.router, "The program comm_router")->required();
   app.add_option("--out", options.out, "Folder for what it writes")->required();
   app.add_option("--domain", options.domain, "The first of five DDS domains")->check(CLI::Range(0, 200));
-  app.add_option("--messages", options.messages, "How many")->check(CLI::Range(20, 1'000'000));
-  app.add_option("--bytes", options.bytes, "Of each")->check(CLI::Range(8, 4'000'000));
+  app.add_option("--messages", options.messages, "Number of messages")->check(CLI::Range(20, 1'000'000));
+  app.add_option("--bytes", options.bytes, "Size of each message [bytes]")->check(CLI::Range(8, 4'000'000));
   CLI11_PARSE(app, argc, argv);
   return run(options);
 } catch (const std::exception& error) {
