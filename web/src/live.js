@@ -74,7 +74,7 @@ const kStates = {
   flies: ['flies', ''],
   paused: ['paused', 'held'],
   waits: ['waits', 'held'],
-  gone: ['not connected; asking again', 'gone'],
+  gone: ['not connected; trying again', 'gone'],
   replay: ['replay', 'replay'],
   closed: ['replay, no longer served', 'gone'],
 };
@@ -123,7 +123,7 @@ function frame(order) {
   };
   const side = element('div', {class: 'column side'}, places.score);
   const couple = element('div', {class: 'couple'});
-  const missing = data.missing?.length ? [element('p', {class: 'note'}, `This recording lacks something: ${data.missing.join(' ')}`)] : [];
+  const missing = data.missing?.length ? [element('p', {class: 'note'}, `This recording is incomplete: ${data.missing.join(' ')}`)] : [];
   main.replaceChildren(bar, ...(isPair() ? [pairNote()] : []), ...missing, element('div', {class: 'layout'},
       element('div', {class: 'views'}, places.scene), side, element('div', {class: 'column below'}, places.lanes, couple)));
   return {...places, side, couple};

@@ -7,7 +7,7 @@ const seconds = (time) => `${time.toFixed(2)} s`;
 /** @returns an element about the first difference between the runs. */
 function difference() {
   const {t, fields, unknown} = data.difference;
-  if (unknown) return element('span', {}, `Where they part is not known: ${unknown}`);
+  if (unknown) return element('span', {}, `The first difference is unknown: ${unknown}`);
   if (t === undefined) return element('span', {}, 'The two runs are the same, step by step.');
   const go = element('button', {type: 'button', id: 'difference', title: 'Go there'}, `First difference at ${seconds(t)}`);
   go.addEventListener('click', () => moment.set(t));

@@ -35,7 +35,8 @@ export function sceneView(figure) {
     // A report keeps its static drawing. The page that follows a run has none, but needs the slider.
     if (data.follows)
       figure.append(
-          element('p', {class: 'soft'}, 'This browser has no WebGL 2, which the scene needs. All else is here.'),
+          element('p', {class: 'soft'},
+              'This browser has no WebGL 2, which the scene needs. Everything else is shown.'),
           element('div', {class: 'scene'}, element('div', {class: 'tools'}, timeTools())));
     return;
   }
