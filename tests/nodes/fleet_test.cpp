@@ -74,7 +74,7 @@ class Fleet {
   /// Gives turns in random order until the run is over. @returns false if the run does not finish.
   bool fly() {
     for (std::uint64_t turn = 0; !server_->end() && turn < 20'000'000; ++turn) go_on();
-    station_->write_report();
+    station_->write_report(station_->notes());
     return server_->end() == bus::NodeEnd::finished;
   }
   /// Gives this number of turns.

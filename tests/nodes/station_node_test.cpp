@@ -68,7 +68,7 @@ class StationNodeTest : public testing::Test {
       station->start();
     }
     EXPECT_TRUE(take_turns(turns, [&] { return server.over(); })) << station->waiting_for();
-    station->write_report();
+    station->write_report(station->notes());
     return acknowledged;
   }
 
