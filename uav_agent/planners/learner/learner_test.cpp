@@ -2,8 +2,10 @@
 // and the UAV's knowledge are random.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <map>
+#include <vector>
 
 #include "core/math/random_stream.hpp"
 #include "uav_agent/api/learner.hpp"
@@ -283,8 +285,30 @@ TEST_F(LearnerObservation, KeepsTheLatestScanAndItsAge) {
   }
 }
 
+class LearnerWindow : public LearnerObservation, public testing::WithParamInterface<double> {
+ protected:
+  /// State of the cell with this corner as the block must have it, from all cubes that reach into the cell.
+  int expected(const Vector3d& corner_W) const {
+    constexpr double kEdgeM = 1e-6;  // a cube that only touches the cell is not in it
+    const int steps = static_cast<int>(std::ceil(config_.map_cell_m / uav_.map.config().cell_m));
+    const double step_m = (config_.map_cell_m - 2.0 * kEdgeM) / steps;
+    bool free = true;
+    for (int x = 0; x <= steps; ++x) {
+      for (int y = 0; y <= steps; ++y) {
+        for (int z = 0; z <= steps; ++z) {
+          const Space space = uav_.map.at((corner_W + Vector3d(x, y, z) * step_m).array() + kEdgeM);
+          if (space == Space::occupied) return 1;
+          free = free && space == Space::free;
+        }
+      }
+    }
+    return free ? 0 : -1;
+  }
+};
+
 // The window must be right after each step, whether the map has changed, the UAV has moved, or neither.
-TEST_F(LearnerObservation, TheWindowIsTheMapAboutTheUav) {
+TEST_P(LearnerWindow, IsTheMapAboutTheUav) {
+  config_.map_cell_m = GetParam();
   for (int i = 0; i < 60; ++i) {
     ++uav_.k;
     if (i % 3 == 0) uav_.state.p_WB = drawn_within(random_, 12.0) + Vector3d(0.0, 0.0, 20.0);
@@ -299,29 +323,25 @@ TEST_F(LearnerObservation, TheWindowIsTheMapAboutTheUav) {
     for (int x = 0, at = 0; x < config_.map_x; ++x) {
       for (int y = 0; y < config_.map_y; ++y) {
         for (int z = 0; z < config_.map_z; ++z, ++at) {
-          bool occupied = false, free = true;
-          const Vector3d corner_W = from_W + Vector3d(x, y, z) * config_.map_cell_m;
-          const double cube_m = uav_.map.config().cell_m;
-          for (double dx = 0.5 * cube_m; dx < config_.map_cell_m; dx += cube_m) {
-            for (double dy = 0.5 * cube_m; dy < config_.map_cell_m; dy += cube_m) {
-              for (double dz = 0.5 * cube_m; dz < config_.map_cell_m; dz += cube_m) {
-                const Space space = uav_.map.known(uav_.map.cube_of(corner_W + Vector3d(dx, dy, dz))).space;
-                occupied = occupied || space == Space::occupied;
-                free = free && space == Space::free;
-              }
-            }
-          }
           ASSERT_EQ(
               block().at<std::int8_t>("map", static_cast<std::size_t>(at) / 16, static_cast<std::size_t>(at) % 16),
-              occupied ? 1
-              : free   ? 0
-                       : -1)
+              expected(from_W + Vector3d(x, y, z) * config_.map_cell_m))
               << i << ": " << x << ' ' << y << ' ' << z;
         }
       }
     }
   }
 }
+
+/// Edges of cells [m]: multiples of a cube's edge, others, and some that are drawn.
+std::vector<double> cell_edges() {
+  std::vector<double> edges = {0.5, 0.7, 0.75, 1.0, 1.2};
+  RandomStream random(7, "learner_test", "cells");
+  for (int i = 0; i < 3; ++i) edges.push_back(random.uniform(0.5, 2.5));
+  return edges;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cells, LearnerWindow, testing::ValuesIn(cell_edges()));
 
 }  // namespace
 }  // namespace skein::agent

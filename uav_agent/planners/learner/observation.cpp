@@ -9,7 +9,8 @@
 namespace skein::agent {
 namespace {
 
-constexpr double kAirborneM = 0.5;  ///< height above the start from which a UAV counts as airborne; chosen
+constexpr double kAirborneM = 0.5;   ///< height above the start from which a UAV counts as airborne; chosen
+constexpr double kRoundingM = 1e-6;  ///< a cube that reaches less far into a cell is not in it; numeric
 constexpr std::int8_t kUnknown = -1, kFree = 0, kOccupied = 1;  // values of a map cell
 // Values of `goal`. Format: docs/python.md.
 constexpr std::int8_t kNoGoal = 0, kFlying = 1, kReached = 2, kNoWay = 3, kBlocked = 4;
@@ -189,18 +190,22 @@ void Observation::write_map(const PlannerInput& in) {
   in.world_map != nullptr ? write_cells(*in.world_map, from) : write_cells(in.map, from);
 }
 
-/// A cell is occupied if any of the map's cubes in it is occupied, and free if all of them are free.
+/// A cell is occupied if any of the map's cubes that reach into it is occupied, and free if all of them are free.
 void Observation::write_cells(const WorldMap& map, const Eigen::Vector3i& from) {
   const auto cells = map_.in(block_);
-  const int cubes = std::max(1, static_cast<int>(std::lround(config_.map_cell_m / map.config().cell_m)));
   const auto space_in = [&](const Eigen::Vector3i& cell) {
-    // Rounding: the cell's corner lies between cubes.
-    const Eigen::Vector3i first = map.cube_of((cell.cast<double>() * config_.map_cell_m).array() + 1e-6);
+    const Eigen::Vector3i low = map.cube_of((cell.cast<double>() * config_.map_cell_m).array() + kRoundingM);
+    const Eigen::Vector3i high = map.cube_of(((cell.array() + 1).cast<double>() * config_.map_cell_m) - kRoundingM);
     std::int8_t space = kFree;
-    for (int i = 0; i < cubes * cubes * cubes; ++i) {
-      const Space one = map.known(first + Eigen::Vector3i(i % cubes, i / cubes % cubes, i / (cubes * cubes))).space;
-      if (one == Space::occupied) return kOccupied;
-      if (one == Space::unknown) space = kUnknown;
+    Eigen::Vector3i cube;
+    for (cube.z() = low.z(); cube.z() <= high.z(); ++cube.z()) {
+      for (cube.y() = low.y(); cube.y() <= high.y(); ++cube.y()) {
+        for (cube.x() = low.x(); cube.x() <= high.x(); ++cube.x()) {
+          const Space one = map.known(cube).space;
+          if (one == Space::occupied) return kOccupied;
+          if (one == Space::unknown) space = kUnknown;
+        }
+      }
     }
     return space;
   };
