@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -37,10 +38,10 @@ struct AgentConfig {
   const FleetMember& me() const { return fleet.at(self); }
   /// Index of the first UAV of the fleet with a LiDAR; nullopt: no UAV has one, so no space is ever proved free.
   std::optional<std::size_t> first_explorer() const;
-  /// Whether a task with the period `every_s` [s] is due in exchange k. `offset` [exchanges] shifts it: with another
-  /// offset on each UAV, such as its index, not all UAVs do the task in the same exchange.
+  /// Whether a task with the period `every_s` [s], rounded to exchanges, is due in exchange k. `offset` [exchanges]
+  /// shifts it: with another offset on each UAV, such as its index, not all UAVs do the task in the same exchange.
   bool due(std::uint64_t k, double every_s, std::size_t offset) const {
-    return (k + offset) % static_cast<std::uint64_t>(std::max(1.0, every_s / exchange_period_s)) == 0;
+    return (k + offset) % static_cast<std::uint64_t>(std::max(1L, std::lround(every_s / exchange_period_s))) == 0;
   }
 };
 

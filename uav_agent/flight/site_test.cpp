@@ -79,5 +79,17 @@ TEST(Due, ATaskIsDueOncePerPeriodAndTheOffsetShiftsIt) {
   EXPECT_EQ(second, std::set<std::uint64_t>({7}));
 }
 
+TEST(Due, APeriodOfAnyNumberOfExchangesIsKept) {
+  AgentConfig agent;
+  for (const double exchange_s : {0.0025, 0.05, 0.1, 0.3}) {
+    agent.exchange_period_s = exchange_s;
+    for (std::uint64_t period = 1; period <= 200; ++period) {
+      const double every_s = seconds(static_cast<Tick>(period) * ticks(exchange_s));
+      for (std::uint64_t k = 1; k < period; ++k) EXPECT_FALSE(agent.due(k, every_s, 0)) << exchange_s << ' ' << period;
+      EXPECT_TRUE(agent.due(period, every_s, 0)) << exchange_s << ' ' << period;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace skein::agent
