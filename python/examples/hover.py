@@ -10,6 +10,9 @@ from dataclasses import dataclass
 from skein.planner import GimbalCommand, Path, Planner, PlannerInput, PlannerOutput, Waypoint, parameter
 
 
+BEGINS_IN_FLIGHT_M = 2.0  # a UAV that is higher when its planner begins has been restarted in flight
+
+
 class Hover(Planner):
     @dataclass
     class Config:
@@ -23,5 +26,8 @@ class Hover(Planner):
         if self.started:
             return PlannerOutput()
         self.started = True
-        top = inputs.state.p_WB + [0.0, 0.0, self.config.height_m]
+        here = inputs.state.p_WB
+        top = here + [0.0, 0.0, self.config.height_m]
+        if here[2] > BEGINS_IN_FLIGHT_M:  # it must not climb once more
+            top[2] = self.agent.me().p_WB_start[2] + self.config.height_m
         return PlannerOutput(motion=Path([Waypoint(top, self.config.climb_mps)]), gimbal=GimbalCommand("angle"))
