@@ -72,7 +72,7 @@ struct Belongings::Generators {
     numpy_rest = state["has_gauss"].cast<int>() != 0 ? state : py::object(py::none());
   }
 
-  /// @param in_store  whether NumPy's generator now has a Gaussian number in store, of another planner.
+  /// @param in_store  whether NumPy's generator may now have a Gaussian number in store, of another planner.
   void load(bool in_store) const {
     const Globals& of = globals();
     if (of.random_twister.empty()) of.random.attr("setstate")(random_state);
@@ -110,7 +110,9 @@ Belongings::~Belongings() {
 
 void Belongings::enter() {
   if (current == this) return;
-  const bool in_store = current != nullptr && (current->put_away(), !current->generators_->numpy_rest.is_none());
+  if (current != nullptr) current->put_away();
+  // A planner that was destroyed may have left a number in store.
+  const bool in_store = current == nullptr || !current->generators_->numpy_rest.is_none();
   py::module_ sys = py::module_::import("sys");
   for (const auto& [name, module] : modules_) sys.attr("modules")[name] = module;
   sys.attr("path")[py::int_(0)] = folder_;

@@ -312,6 +312,11 @@ TEST_F(PythonPlannerTest, GeneratorsAndModulesAreEachUavsOwn) {
   EXPECT_NE(alone[0], alone[1]);
   EXPECT_NE(said(*make(spec, 6, 0)), alone[0][0]) << "another seed gives other numbers";
   EXPECT_EQ(said(*make(spec, 5, 0)), alone[0][0]) << "a restarted planner draws the same numbers again";
+
+  const auto stays = make(spec, 5, 0);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(said(*stays), alone[0][i]);
+  said(*make(spec, 5, 1));  // it is destroyed while NumPy's generator has a Gaussian number in store
+  EXPECT_EQ(said(*stays), alone[0][2]);
 }
 
 TEST_F(PythonPlannerTest, TheFlightConfigOfPythonIsThatOfCpp) {
