@@ -52,9 +52,9 @@ void KeptMaps::write(const WorldMap* world, const OccupancyMap& key_frames) {
 }
 
 void KeptMaps::open() {
-  int life = 0;
-  while (std::filesystem::exists(folder_ / run_folder::maps_file(uav_, life))) ++life;
   try {
+    int life = 0;
+    while (std::filesystem::exists(folder_ / run_folder::maps_file(uav_, life))) ++life;
     file_.emplace(folder_ / run_folder::maps_file(uav_, life));
     const MessageDefinition& type = message_definition(type_name<msg::Octomap>());
     const std::string topic = topics::flight_map(uav_).name.substr(2);  // on the wire it begins with "rt"

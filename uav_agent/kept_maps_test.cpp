@@ -131,6 +131,11 @@ TEST_F(KeptMapsTest, SnapshotsEndWithAnErrorThatNamesTheFileIfItCannotBeWritten)
   fly(nowhere);
   EXPECT_NE(nowhere.write_error().find("maps-a.mcap"), std::string::npos) << nowhere.write_error();
 
+  fs::create_symlink("loop", folder_ / "loop");  // exists() throws, for root too
+  KeptMaps unsearchable(folder_ / "loop", "a", kSecond);
+  fly(unsearchable);
+  EXPECT_NE(unsearchable.write_error().find("maps-a.mcap"), std::string::npos) << unsearchable.write_error();
+
   rlimit former{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &former), 0);
   const auto handler = ::signal(SIGXFSZ, SIG_IGN);
