@@ -277,6 +277,7 @@ bool FlockPoints::read_region(PayloadReader& reader) {
     for (int k = 0; k < 3; ++k) told.p_W[k] = corner_W[k] + kCm * (reader.u16() + 0.5);
     for (int k = 0; k < 3; ++k) told.n_W[k] = (reader.u8() - kNormalZero) / kNormalSteps;
     told.q = reader.u8() / kQualitySteps;
+    if (told.q > 1.0) return false;  // damaged: the whole fleet would take the point as done
     if (reader.ok()) all.push_back(told);
   }
   take(all, nullptr);

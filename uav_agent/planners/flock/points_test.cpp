@@ -224,6 +224,7 @@ TEST(FlockPoints, DamagedMessagesDoNoHarm) {
       EXPECT_TRUE(point.p_W.allFinite());
       EXPECT_NEAR(point.n_W.norm(), 1.0, 1e-9);
       EXPECT_GE(point.q, 0.0);
+      EXPECT_LE(point.q, 1.0);
     }
   }
 }
