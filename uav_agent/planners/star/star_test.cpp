@@ -289,11 +289,16 @@ TEST(StarExplorer, GivesUpFrontiersAfterSeveralLooks) {
   }
   StarExplorer explorer(StarExplorer::Config(), grid);
   const Vector3d here(5.0, 10.0, 10.0);
-  for (int i = 0; i < 20; ++i) explorer.look(grid, grid.take_changed(), here);
   const OccupancyMap map;
   const std::vector<OrientedBox> no_boxes;
   const FreeSpace space(FreeSpace::Config(), no_boxes, map);
-  EXPECT_LT(explorer.tour(grid, space, make_box({10, 10, 10}, {20, 20, 20}), {here, {}, {}}, 0).size(), 3U);
+  const auto goals = [&] {
+    return explorer.tour(grid, space, make_box({10, 10, 10}, {20, 20, 20}), {here, {}, {}}, 0).size();
+  };
+  explorer.look(grid, grid.take_changed(), here);
+  EXPECT_GE(goals(), 3U);
+  for (int i = 1; i < 20; ++i) explorer.look(grid, grid.take_changed(), here);
+  EXPECT_LT(goals(), 3U);
 }
 
 TEST(StarTalk, MessagesCarryGoalsAndInspectedSurface) {
