@@ -1,5 +1,6 @@
 #include "uav_agent/planning/own_strips.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 namespace skein::agent {
