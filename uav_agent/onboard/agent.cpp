@@ -347,8 +347,6 @@ void Agent::Impl::take_in(const AgentInput& input) {
   in.space = &space.emplace(core->space(in));
 }
 
-Learner* Agent::learner() { return impl_->planner->learner(); }
-
 void Agent::look(const AgentInput& input) {
   impl_->take_in(input);
   impl_->planner->learner()->look(*impl_->taken_in);

@@ -79,10 +79,9 @@ class Agent {
   const WorkParts* parts() const;
   /// One exchange. Inputs must come in order of k.
   AgentOutput step(const AgentInput& input);
-  /// The planner, if an external program steps it (api/learner.hpp); nullptr: the planner decides by itself.
-  Learner* learner();
-  /// The first half of step(): updates map and peers, and lets the learner look. Only if learner() is not nullptr. The
-  /// next call must be step() with the same input, which does the rest; the input must live until then.
+  /// The first half of step(): updates map and peers, and lets the learner look. Only if the planner is a learner
+  /// (api/learner.hpp). The next call must be step() with the same input, which does the rest; the input must live
+  /// until then.
   void look(const AgentInput& input);
   /// Number of scans whose beams were reconstructed (ScanDoubt::none), or could not be, by reason.
   std::uint64_t beam_scans(ScanDoubt doubt) const;

@@ -69,10 +69,7 @@ class FlockViews {
   /// @param lack  lack of work, 0 to 1: factor on the points expected there; 0: adds none.
   void find_gaps(const FlockSurfaces& surfaces, const FreeSpace& space, const Vector3d& p_W, double lack,
                  std::vector<FlockView>& views) const;
-  /// Points on which the camera can be turned quickly, with most left to photograph around them, best first.
-  std::vector<Vector3d> aims(const FlockTargets& targets, const Vector3d& p_WB, const RigidBodyState& state,
-                             const GimbalState& gimbal) const;
-  /// The best of these points to look at from a place; nullopt: the camera gains too little by turning to any.
+  /// A view, from a place, of the best point to which the camera can turn quickly; nullopt: none is worth the turn.
   std::optional<FlockView> glance(const FlockSurfaces& surfaces, const FlockTargets& targets, const Vector3d& p_WB,
                                   const RigidBodyState& state, const GimbalState& gimbal) const;
   /// Wide views of the targets, nearest first: a UAV that waits there sees them, and is far from where others work.
@@ -85,6 +82,9 @@ class FlockViews {
 
  private:
   struct Vote;
+  /// Points on which the camera can be turned quickly, with most left to photograph around them, best first.
+  std::vector<Vector3d> aims(const FlockTargets& targets, const Vector3d& p_WB, const RigidBodyState& state,
+                             const GimbalState& gimbal) const;
   std::vector<FlockTarget> voters(const FlockTargets& targets) const;
   std::vector<Vote> votes(const FlockTargets& targets) const;
 

@@ -46,14 +46,14 @@ std::vector<Goal> XxhInspector::choices(const XxhRegionMap& region, const Vector
 }
 
 void XxhInspector::hear(const XxhErrand& errand) {
-  for (const std::size_t missed : errand.missed()) ++failed_[choices_[missed].cell];
+  for (const std::size_t missed : errand.missed()) failed_.insert(choices_[missed].cell);
   const auto& end = errand.ended();
   if (!end) return;
   if (end->reached) {
     visit_ = choices_[end->choice];
     last_cell_ = visit_->cell;
   } else {
-    ++failed_[choices_[end->choice].cell];
+    failed_.insert(choices_[end->choice].cell);
   }
 }
 

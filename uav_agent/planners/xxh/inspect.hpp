@@ -8,8 +8,8 @@
 #pragma once
 
 #include <deque>
-#include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "uav_agent/planners/xxh/config.hpp"
@@ -54,7 +54,7 @@ class XxhInspector {
   std::vector<XxhVisit> choices_;
   std::optional<VoxelGrid::Id> last_cell_;  ///< cell of the last visit, from which the spiral goes on
   std::optional<XxhVisit> visit_;
-  std::map<VoxelGrid::Id, int> failed_;
+  std::set<VoxelGrid::Id> failed_;  ///< cells that could not be reached in this pass
   std::optional<Tick> at_cell_since_, reached_since_;
 };
 

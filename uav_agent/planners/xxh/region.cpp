@@ -204,7 +204,7 @@ void XxhRegionMap::sort_around(VoxelGrid::Id from, std::vector<VoxelGrid::Id>& c
 }
 
 std::vector<XxhVisit> XxhRegionMap::visits(const Vector3d& from_W, int layer, XxhOrder order, const FreeSpace& space,
-                                           const std::map<VoxelGrid::Id, int>& skip, std::size_t most) const {
+                                           const std::set<VoxelGrid::Id>& skip, std::size_t most) const {
   const VoxelGrid::Id from = cell_at(from_W);
   std::vector<VoxelGrid::Id> cells = reachable(from, layer);
   if (order == XxhOrder::spiral) sort_around(from, cells);

@@ -8,8 +8,8 @@
 // targets a UAV stops.
 #pragma once
 
-#include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "uav_agent/flight/free_space.hpp"
@@ -82,7 +82,7 @@ class XxhRegionMap {
   /// to cell. spiral: around the region in the explorer's direction; of cells in one direction the outermost first.
   /// @param skip  cells to leave out.
   std::vector<XxhVisit> visits(const Vector3d& from_W, int layer, XxhOrder order, const FreeSpace& space,
-                               const std::map<VoxelGrid::Id, int>& skip, std::size_t most) const;
+                               const std::set<VoxelGrid::Id>& skip, std::size_t most) const;
   /// Targets of a cell, whether or not it has a place to stop at; empty if the cell is occupied.
   std::vector<XxhTarget> targets(VoxelGrid::Id cell) const;
 
