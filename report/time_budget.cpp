@@ -21,7 +21,7 @@ constexpr std::pair<std::string_view, TimeUse> kBegins[] = {{"on the ground", Ti
                                                             {"shows ", TimeUse::shows},
                                                             {"looks ", TimeUse::recovers},
                                                             {"flies nearer", TimeUse::recovers},
-                                                            {"tries from elsewhere", TimeUse::recovers},
+                                                            {"tries ", TimeUse::recovers},
                                                             {"climbs to see more", TimeUse::recovers},
                                                             {"flies back", TimeUse::recovers},
                                                             {"makes room", TimeUse::recovers},
@@ -29,7 +29,7 @@ constexpr std::pair<std::string_view, TimeUse> kBegins[] = {{"on the ground", Ti
                                                             {"returns", TimeUse::homing},
                                                             {"delivers", TimeUse::homing},
                                                             {"waits for a link", TimeUse::homing},
-                                                            {"stays where", TimeUse::homing},
+                                                            {"stays ", TimeUse::homing},
                                                             {"flies to its landing", TimeUse::homing}};
 
 TimeUse use_of(const Activity& activity) {

@@ -44,7 +44,7 @@ void check_debug_names(const std::vector<std::string>& names, const std::string&
   for (const std::string& name : names) {
     if (topics::debug_name(topics::debug(uav, name).name, uav).empty()) {
       throw InputError(uav + "'s planner " + planner + ": debug name '" + name +
-                       "' is not part of a topic's name: letters, digits and _, a letter first, and together at most "
+                       "' cannot be part of a topic name: letters, digits and _, a letter first, and together at most "
                        "255 characters");
     }
   }
@@ -188,7 +188,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   Learner* const learner = planner ? planner->learner() : nullptr;
   if (learner != nullptr && !desk_) {
     throw InputError("--planner " + scenario->fleet[uav].name + "=" + planner_ +
-                     ": a learner does what a program says that steps the fleet: skein.Fleet(learners=[\"" +
+                     ": a learner needs a program that steps the fleet: skein.Fleet(learners=[\"" +
                      scenario->fleet[uav].name + "\"]) in Python");
   }
   if (ground) {

@@ -61,7 +61,7 @@ void KeptMaps::open() {
     channel_ = file_->add_channel(topic, type.name, type.text);
   } catch (const std::exception& error) {
     file_.reset();
-    write_error_ = "the maps of " + uav_ + " end: " + error.what();
+    write_error_ = "no further map snapshots of " + uav_ + ": " + error.what();
   }
 }
 

@@ -21,10 +21,10 @@ GROUPS = {
     "rests at its goal, or has none": ("rests at its goal", "has no goal"),
     "finds no path to its goals": ("looks for a way",),
     "flies to goals without work": ("flies to a goal", "flies along"),
-    "recovers: flies back, looks around, tries from elsewhere, climbs": (
-        "looks around", "flies nearer", "tries from elsewhere", "climbs to see", "flies back", "makes room"),
+    "recovers: flies back, looks around, tries from another place, climbs": (
+        "looks around", "flies nearer", "tries ", "climbs to see", "flies back", "makes room"),
     "proves the space above another UAV free": ("shows",),
-    "delivers, or looks for a link": ("returns", "delivers", "waits for a link", "stays where"),
+    "delivers, or looks for a link": ("returns", "delivers", "waits for a link", "stays "),
 }
 
 

@@ -214,7 +214,7 @@ def test_misuse_is_an_exception() -> None:
     answers = context.Queue()
     copy = context.Process(target=_in_a_copy, args=(client, answers))
     copy.start()
-    assert "copy of the process" in answers.get(timeout=60)
+    assert "forked process" in answers.get(timeout=60)
     copy.join(60)
     assert copy.exitcode == 0
     said: list[str] = []
@@ -228,7 +228,7 @@ def test_misuse_is_an_exception() -> None:
     thread = threading.Thread(target=elsewhere)
     thread.start()
     thread.join()
-    assert said == ["another thread joined: use it from that one"]
+    assert said == ["use it only in the thread that joined"]
     client.close()
     client.close()
     with pytest.raises(skein.Error, match="closed"):

@@ -194,8 +194,8 @@ function uavs(run) {
 const kUses = [
   /^(on the ground|takes off)/, /^waits to be shown/, /^(flies to a (goal|set-point)|flies along|sends commands)/,
   /^(rests at its goal|holds its place|has no goal)/, /^shows /,
-  /^(looks |flies nearer|tries from elsewhere|climbs to see more|flies back|makes room)/, /^stands: /,
-  /^(returns|delivers|waits for a link|stays where|flies to its landing)/, /^/
+  /^(looks |flies nearer|tries |climbs to see more|flies back|makes room)/, /^stands: /,
+  /^(returns|delivers|waits for a link|stays |flies to its landing)/, /^/
 ];
 
 /** @returns by UAV, the seconds of each kind of activity while its program takes part. */

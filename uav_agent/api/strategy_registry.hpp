@@ -24,7 +24,7 @@ class StrategyRegistry {
   /// Registers a factory. @returns true. @throws std::logic_error when the name is taken.
   static bool add(const std::string& name, Factory factory) {
     if (!factories().emplace(name, factory).second) {
-      throw std::logic_error("two of a kind are registered as '" + name + "'");
+      throw std::logic_error("two strategies are registered as '" + name + "'");
     }
     return true;
   }

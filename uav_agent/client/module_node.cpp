@@ -55,8 +55,8 @@ std::vector<std::uint8_t> from_bytes(const py::bytes& bytes) {
 class Home {
  public:
   void check() const {
-    if (::getpid() != pid_) throw WrongUse("this is a copy of the process that joined: a copy must join by itself");
-    if (std::this_thread::get_id() != thread_) throw WrongUse("another thread joined: use it from that one");
+    if (::getpid() != pid_) throw WrongUse("a forked process must join by itself");
+    if (std::this_thread::get_id() != thread_) throw WrongUse("use it only in the thread that joined");
   }
   bool is_copy() const { return ::getpid() != pid_; }
 
@@ -77,7 +77,7 @@ class Joined {
   /// @throws WrongUse after close(), from another thread and in a copy of the process.
   Node& node() {
     home_.check();
-    if (!node_) throw WrongUse("it is closed");
+    if (!node_) throw WrongUse("this object is closed");
     return *node_;
   }
   void close() {

@@ -64,13 +64,13 @@ const char* words_for(What what) {
     case What::no_goal:
       return "has no goal";
     case What::shows_mate:
-      return "shows a mate its way up";
+      return "shows another UAV its way up";
     case What::looks_round:
       return "looks around";
     case What::approaches:
       return "flies nearer to the goal that it missed";
     case What::elsewhere:
-      return "tries from elsewhere";
+      return "tries to reach its goal from another place";
     case What::climbs:
       return "climbs to see more";
     case What::back:
@@ -126,7 +126,7 @@ std::string ActivityTeller::mode_of(const ActivityFacts& facts) const {
   if (doing.what == What::shows_mate && !name_of(doing.mate).empty()) {
     return "shows " + name_of(doing.mate) + " its way up";
   }
-  if (doing.what == What::delivers && facts.undelivered == 0) return "stays where the station hears it";
+  if (doing.what == What::delivers && facts.undelivered == 0) return "stays within the station's line of sight";
   return words_for(doing.what);
 }
 

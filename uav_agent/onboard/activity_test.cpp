@@ -73,7 +73,7 @@ TEST_F(ActivityWords, DifferForAllStatesOfAUav) {
   doing(What::delivers);
   facts_.undelivered = 0;
   step();
-  EXPECT_EQ(last_.mode, "stays where the station hears it");
+  EXPECT_EQ(last_.mode, "stays within the station's line of sight");
   facts_.what = Doing{What::shows_mate, {}, 1};
   step();
   EXPECT_EQ(last_.mode, "shows changi its way up");

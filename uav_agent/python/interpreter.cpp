@@ -19,7 +19,7 @@ constexpr const char* kHashSeed = "SKEIN_HASH_SEED";
 void require(const PyStatus& status) {
   if (PyStatus_Exception(status) == 0) return;
   throw InputError(std::string("--planner py:...: Python cannot be started: ") +
-                   (status.err_msg != nullptr ? status.err_msg : "it does not say why"));
+                   (status.err_msg != nullptr ? status.err_msg : "no reason given"));
 }
 
 /// Makes the symbols of Python's library global: NumPy's modules look them up in the process, but dlopen() has loaded
@@ -76,7 +76,7 @@ Interpreter* started(const std::filesystem::path& package_folder) {
     embedded.attr("prepare")();
     return new Interpreter{embedded, Words(py::module_::import("skein.planner"))};  // never deleted
   } catch (py::error_already_set& error) {
-    throw InputError("--planner py:...: Python does not find what planners need: " + std::string(error.what()) +
+    throw InputError("--planner py:...: a Python package that planners need is missing: " + std::string(error.what()) +
                      "\nDebian's packages python3-skein and python3-numpy have it");
   }
 }

@@ -172,7 +172,7 @@ PlannerOutput read_output(py::handle value, const OutputRules& rules) {
   output.waits_for = read_mate(field("waits_for"), Place("waits_for"), rules.order.agent);
   output.debug = read_debug(field("debug"), Place("debug"), rules.debug_names);
   if (rules.flown && !std::holds_alternative<std::monostate>(output.motion)) {
-    throw WrongOutput("motion: is not flown where flight() returns a FlightConfig: want a goal");
+    throw WrongOutput("motion: not allowed if flight() returns a FlightConfig; return goals");
   }
   return output;
 }

@@ -7,9 +7,9 @@ const kKinds = [
   {colour: 'q0', text: 'on the ground, takes off, lands', begins: ['on the ground', 'takes off', 'waits to be shown its way up', 'flies to its landing place']},
   {colour: 'c0', text: 'flies to goals, rests there', begins: ['flies to a goal', 'flies along', 'flies to a set-point', 'rests at its goal', 'holds its place', 'sends commands']},
   {colour: 'c3', text: 'shows another UAV its way up', begins: ['shows ']},
-  {colour: 'c4', text: 'has no goal or way, recovers', begins: ['has no goal', 'looks for a way', 'looks around', 'flies nearer', 'tries from elsewhere', 'climbs to see more', 'flies back', 'makes room']},
+  {colour: 'c4', text: 'has no goal or way, recovers', begins: ['has no goal', 'looks for a way', 'looks around', 'flies nearer', 'tries ', 'climbs to see more', 'flies back', 'makes room']},
   {colour: 'c1', text: 'stands', begins: ['stands: ']},
-  {colour: 'c2', text: 'brings captures home', begins: ['returns', 'delivers', 'waits for a link', 'stays where']},
+  {colour: 'c2', text: 'brings captures home', begins: ['returns', 'delivers', 'waits for a link', 'stays ']},
   kOther,
 ];
 

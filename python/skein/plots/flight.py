@@ -21,10 +21,10 @@ _MODES = (
         "sends commands")),
     (look.PLANNERS[3], "shows another UAV its way up", ("shows ",)),
     (look.PLANNERS[4], "has no goal or way, recovers", (
-        "has no goal", "looks for a way", "looks around", "flies nearer", "tries from elsewhere", "climbs to see more",
-        "flies back", "makes room")),
+        "has no goal", "looks for a way", "looks around", "flies nearer", "tries ", "climbs to see more", "flies back",
+        "makes room")),
     (look.PLANNERS[1], "stands", ("stands: ",)),
-    (look.PLANNERS[2], "brings captures home", ("returns", "delivers", "waits for a link", "stays where")),
+    (look.PLANNERS[2], "brings captures home", ("returns", "delivers", "waits for a link", "stays ")),
     (look.QUALITIES[2], "other", ("",)),
 )
 

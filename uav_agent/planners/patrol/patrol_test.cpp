@@ -111,7 +111,7 @@ TEST(Patrol, OnlyTheMapKeepsItAwayFromAnObstacleOutsideTheBoxes) {
   EXPECT_GT(with_map.clearance(), kExplorerRadiusM + 0.4);
   TestWorld without(tower_with_a_screen(), {{"eye", Role::photographer, {-10.0, -14.0}}}, "patrol", 200.0);
   without.run(200.0);
-  EXPECT_LT(without.clearance(), kPhotographerRadiusM) << "nobody has a LiDAR: it flies into the screen";
+  EXPECT_LT(without.clearance(), kPhotographerRadiusM) << "no UAV has a LiDAR: it flies into the screen";
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(XxhTalk, AUavThatHasLessPriorityKeepsClearOfTheOthersTrajectoriesForAWhile)
   EXPECT_EQ(keeps_clear_of(1, 1.0, false), 1U) << "a photographer: of the explorer, not of the photographer behind it";
   EXPECT_EQ(keeps_clear_of(2, 1.0, false), 1U) << "the second explorer: of the first, not of any photographer";
   EXPECT_EQ(keeps_clear_of(1, 60.0, false), 0U);
-  EXPECT_EQ(keeps_clear_of(1, 60.0, true), 2U) << "as the public code: of everybody, for ever";
+  EXPECT_EQ(keeps_clear_of(1, 60.0, true), 2U) << "as the public code: of all UAVs, without expiry";
 }
 
 TEST(Xxh, PhotographsTheStructureAndDeliversThePictures) {
