@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/config/config_files.hpp"
+#include "core/planners/free_nodes.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/text/text.hpp"
 #include "host/environment.hpp"
@@ -83,11 +84,12 @@ Arguments replay_arguments(const ReplayOf& replay) {
 /// Arguments for an agent's UAV (or the ground station) and planner.
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   const auto& maps_s = plan.options.keep_maps_s;
+  const std::string& planner = planner_of(plan, program).spec;
   Arguments arguments = {"--uav", programs::member_name(program)};
-  if (maps_s) append(arguments, {"--maps-every", shortest(*maps_s)});
+  if (maps_s && planner != kFreeNodes) append(arguments, {"--maps-every", shortest(*maps_s)});
   if (plan.options.time_parts) append(arguments, {"--time-parts"});
   if (program == programs::kGroundAgent) arguments = {"--role", "gcs"};
-  append(arguments, {"--planner", planner_of(plan, program).spec});
+  append(arguments, {"--planner", planner});
   return arguments;
 }
 

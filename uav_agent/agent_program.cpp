@@ -61,6 +61,14 @@ void check_maps_period(double period_s) {
                    shortest(kMostMapsPeriod_s) + "] s");
 }
 
+/// @throws InputError for options that only the software of a UAV with a planner obeys.
+void check_planner_options(bool has_planner, bool keeps_maps, bool debugs) {
+  if (has_planner || (!keeps_maps && !debugs)) return;
+  throw InputError(std::string(keeps_maps ? "--maps-every" : "--pdb") +
+                   ": this program flies no UAV with a planner (--role gcs, or --planner " + std::string(kFreeNodes) +
+                   ")");
+}
+
 /// Makes a planner that is written in C++ or in Python.
 std::unique_ptr<Planner> planner_of(const std::string& spec, const Scenario& scenario, UavIndex uav, std::uint64_t seed,
                                     const std::optional<double>& pdb_from_s) {
@@ -173,6 +181,7 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   std::unique_ptr<Planner> planner;
   std::vector<std::string> debug_names;
   const bool stands_in = role_ != "gcs" && planner_ == kFreeNodes;
+  check_planner_options(role_ != "gcs" && !stands_in, maps_every_s_.has_value(), pdb_from_s_.has_value());
   if (role_ == "gcs") {
     ground = make_ground_program(planner_, ground_config(*scenario));
   } else if (stands_in) {

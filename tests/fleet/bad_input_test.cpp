@@ -114,6 +114,19 @@ TEST_F(BadInput, AProgramStartedByHandNamesAMissingFolder) {
   }
 }
 
+TEST_F(BadInput, AnAgentWithoutAPlannerRefusesOptionsOfPlanners) {
+  const std::string scenario = write_small_scene(folder());
+  for (const Arguments& role : {Arguments{"--role", "gcs", "--planner", "xxh"}, {"--planner", "ros"}}) {
+    for (const char* option : {"--maps-every", "--pdb"}) {
+      Arguments arguments = {program("uav_agent"), "--scenario", scenario, "--check", option, "1"};
+      arguments.insert(arguments.end(), role.begin(), role.end());
+      ChildProcess& refused = start_program(role.back() + option, arguments);
+      EXPECT_EQ(refused.wait().code, 2) << role.back() << ' ' << option;
+      EXPECT_TRUE(refused.err().starts_with(std::string("uav_agent: ") + option)) << refused.err();
+    }
+  }
+}
+
 TEST_F(BadInput, APipeDeviceOrHugeFileIsRefusedAtOnce) {
   const std::string scenario = write_small_scene(folder());
   const std::string pipe = folder() / "pipe.yaml", recorded = folder() / "recorded", hole = folder() / "hole.csv";
