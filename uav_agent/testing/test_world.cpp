@@ -112,6 +112,16 @@ TestScene two_towers() {
   return scene;
 }
 
+TestScene many_boxes(int count) {
+  TestScene scene;
+  for (int i = 0; i < count; ++i) {
+    const Vector3d centre(14.0 * (i % 5), 14.0 * (i / 5), 6.0 + i % 4);
+    scene.solids.push_back(make_box(centre, {4.0, 4.0, 2.0 * centre.z()}, 0.2 * i));
+    scene.boxes.push_back(make_box(centre + Vector3d(0.0, 0.0, 0.5), {5.0, 5.0, 2.0 * centre.z() + 1.0}, 0.2 * i));
+  }
+  return scene;
+}
+
 std::vector<TestUav> test_fleet(std::size_t count) {
   std::vector<TestUav> fleet;
   for (std::size_t i = 0; i < count; ++i) {

@@ -25,6 +25,8 @@ struct TestScene {
 OrientedBox make_box(const Vector3d& centre, const Vector3d& size, double yaw = 0.0);
 /// Two towers in loose boxes, and a podium that is in no box.
 TestScene two_towers();
+/// Columns in rows of five, each in a box of its own.
+TestScene many_boxes(int count);
 
 struct TestUav {
   std::string name;

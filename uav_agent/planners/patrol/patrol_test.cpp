@@ -71,13 +71,7 @@ TEST(Patrol, WithoutBoxesItStaysWhereItIs) {
 }
 
 TEST(Patrol, FliesSafelyAndPhotographsAmongManyBoxes) {
-  TestScene scene;
-  for (int i = 0; i < 15; ++i) {
-    const Vector3d centre(14.0 * (i % 5), 14.0 * (i / 5), 6.0 + i % 4);
-    scene.solids.push_back(make_box(centre, {4.0, 4.0, 2.0 * centre.z()}, 0.2 * i));
-    scene.boxes.push_back(make_box(centre + Vector3d(0.0, 0.0, 0.5), {5.0, 5.0, 2.0 * centre.z() + 1.0}, 0.2 * i));
-  }
-  TestWorld world(scene, test_fleet(4), "patrol", 140.0);
+  TestWorld world(many_boxes(15), test_fleet(4), "patrol", 140.0);
   world.run(140.0);
   EXPECT_GT(world.clearance(), kExplorerRadiusM + 0.4);
   EXPECT_GT(world.coverage(), 0.3);
