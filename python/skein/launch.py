@@ -7,6 +7,7 @@ Keyword arguments become options of the command line: `one_process=True` is `--o
 from __future__ import annotations
 
 import contextlib
+import operator
 import os
 import selectors
 import shutil
@@ -14,7 +15,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -29,7 +30,7 @@ _MOST_LINES = 25  # most lines of the launcher's output in a message
 def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
     """Path of the launcher: `launcher`, else the environment variable SKEIN, else this checkout's `./skein`, else
     `skein` in PATH. Raises InputError if there is none."""
-    named = os.fspath(launcher) if launcher is not None else os.environ.get("SKEIN")
+    named = path_text("launcher", launcher) if launcher is not None else os.environ.get("SKEIN")
     if named:
         found = shutil.which(named) if "\0" not in named else None
         if found is None:
@@ -44,17 +45,30 @@ def find_launcher(launcher: str | os.PathLike[str] | None = None) -> str:
     return found
 
 
-def _is_whole(value: object) -> bool:
-    return hasattr(value, "__index__") and not isinstance(value, bool)
+def path_text(name: str, value: Any) -> str:
+    """A path as text. Raises InputError for a value that is no path; bytes are none either."""
+    text = os.fspath(value) if isinstance(value, (str, os.PathLike)) else None
+    if not isinstance(text, str):
+        raise InputError(f"{name} must be a path, not {value!r:.80}")
+    return text
+
+
+def _is_whole(value: Any) -> bool:
+    try:  # an array has __index__, too, which raises TypeError unless the array is a single whole number
+        operator.index(value)
+    except TypeError:
+        return False
+    return not isinstance(value, bool)
 
 
 def _text(name: str, value: Any) -> str:
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
     if _is_whole(value):
-        return str(value.__index__())
+        return str(operator.index(value))
     if hasattr(value, "__float__"):
-        return repr(float(value))
+        with contextlib.suppress(TypeError, ValueError, OverflowError):  # a class, or an array of several numbers
+            return repr(float(value))
     raise InputError(f"{name}: an option is a text, a number, a path, True, or a list of these, not {value!r}")
 
 
@@ -73,7 +87,7 @@ def option_arguments(options: Mapping[str, Any]) -> list[str]:
             words.append(option)
         elif isinstance(value, Mapping):
             raise InputError(f"{name}: an option is not a dictionary; write {value!r} as on the command line")
-        elif hasattr(value, "__iter__") and not isinstance(value, (str, bytes)):
+        elif isinstance(value, Iterable) and not isinstance(value, (str, bytes)) and getattr(value, "ndim", 1) != 0:
             items = list(value)
             if items and all(_is_whole(item) for item in items):
                 words.append(f"{option}={','.join(_text(name, item) for item in items)}")
@@ -86,9 +100,9 @@ def option_arguments(options: Mapping[str, Any]) -> list[str]:
 
 def positional(name: str, value: str | os.PathLike[str]) -> str:
     """A positional argument as a word of the command line. Raises InputError if it would count as an option."""
-    text = os.fspath(value)
+    text = os.fspath(value) if isinstance(value, (str, os.PathLike)) else None
     if not isinstance(text, str) or not text or text.startswith("-"):
-        raise InputError(f"{name}: {value!r} is none; options are keywords of this function")
+        raise InputError(f"{name} must be a name or a path, not {value!r:.80}; options are keywords of this function")
     return text
 
 

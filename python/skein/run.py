@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from . import columns
-from .errors import DamagedError, Error, MissingError, missing_package
-from .launch import Finished, fly, option_arguments, positional
+from .errors import DamagedError, Error, InputError, MissingError, missing_package
+from .launch import Finished, fly, option_arguments, path_text, positional
 from .tables import Array, read_table, read_text, read_wide_table
 
 if TYPE_CHECKING:
@@ -88,13 +88,14 @@ def read_json(file: Path, missing: str) -> dict[str, Any]:
 
 
 def existing_folder(path: str | os.PathLike[str]) -> Path:
+    text = path_text("path", path)
     try:
-        folder = Path(os.path.abspath(path))
+        folder = Path(os.path.abspath(text))
         there = folder.is_dir()
     except (OSError, ValueError):  # a name that no file can have
         there = False
     if not there:
-        raise MissingError(f"there is no folder {os.fspath(path)!r:.200}")
+        raise MissingError(f"there is no folder {text!r:.200}")
     return folder
 
 
@@ -197,6 +198,8 @@ class Run:
 
     def table(self, name: str) -> Array:
         """One of the tables below, by its name."""
+        if not isinstance(name, str):
+            raise InputError(f"the name of a table is a text, not {name!r:.80}")
         if name not in self._tables:
             self._tables[name] = self._read_table(name)
         return self._tables[name]

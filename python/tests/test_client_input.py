@@ -183,6 +183,8 @@ def test_a_listener_with_wrong_arguments_is_refused_with_a_reason(arguments: Any
         Listener(*arguments, domain=223, dds="cyclonedds")
     with pytest.raises(skein.InputError, match="flies"):
         Listener(["/gcs/score"], run="/no/such/run")
+    with pytest.raises(skein.InputError, match="run must be a path"):
+        Listener(["/gcs/score"], run=5)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("options", "match"), [
@@ -231,14 +233,14 @@ def test_misuse_is_an_exception() -> None:
     assert said == ["use it only in the thread that joined"]
     client.close()
     client.close()
-    with pytest.raises(skein.Error, match="closed"):
+    with pytest.raises(skein.Error, match="this client is closed"):
         next(client)
     with Listener(["/gcs/score"], domain=223, dds="cyclonedds") as listener:
         assert listener.hear(0.0) is None and listener.missed == 0
         for wrong in (-1.0, float("nan")):
             with pytest.raises(skein.InputError, match="timeout_s"):
                 listener.hear(wrong)
-    with pytest.raises(skein.Error, match="closed"):
+    with pytest.raises(skein.Error, match="this listener is closed"):
         listener.hear(0.0)
 
 

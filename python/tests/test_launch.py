@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,16 +40,24 @@ def test_drawn_numbers_arrive_as_they_are() -> None:
         assert float(duration.removeprefix("--duration=")) == broken
 
 
-@pytest.mark.parametrize("value", [{"jurong": "kios"}, object(), [["a"]], b"a", 1j])
+@pytest.mark.parametrize("value", [{"jurong": "kios"}, object(), [["a"]], b"a", 1j, float,
+                                   [np.zeros(2)], np.array("a")])
 def test_a_value_of_a_wrong_type_is_refused(value: object) -> None:
     with pytest.raises(skein.InputError, match="planner"):
         option_arguments({"planner": value})
 
 
-@pytest.mark.parametrize("scenario", ["--help", "", "-v"])
-def test_an_option_in_place_of_the_scenario_is_refused(scenario: str) -> None:
-    with pytest.raises(skein.InputError, match="scenario"):
+@pytest.mark.parametrize("scenario", ["--help", "", "-v", 5, None, b"towers"])
+def test_a_scenario_that_is_neither_a_name_nor_a_path_is_refused(scenario: Any) -> None:
+    with pytest.raises(skein.InputError, match="scenario must be a name or a path"):
         skein.run(scenario)
+
+
+def test_a_value_that_is_not_a_path_is_refused() -> None:
+    for call in (skein.Run, skein.Study, skein.find_launcher):
+        for wrong in (5, b"a", ["a"]):
+            with pytest.raises(skein.InputError, match="must be a path"):
+                call(wrong)  # type: ignore[arg-type]
 
 
 def test_the_launcher_is_found_by_argument_then_variable_then_path(

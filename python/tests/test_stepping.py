@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import skein
+from skein.stepping.actions import Orders
 
 LEARNERS = ["jurong", "sentosa"]  # an explorer and a photographer
 
@@ -100,6 +101,17 @@ def test_the_seed_determines_the_flight(fleet: skein.Fleet) -> None:
     assert same(flights[0][0], flights[2][0]) and flights[0][1] == flights[2][1]
     assert flights[1][1] == flights[3][1] != flights[0][1]
     assert not same(flights[0][0], flights[1][0]), "two seeds gave the same starts"
+
+
+@pytest.mark.parametrize(("actions", "wrong", "match"), [
+    *(("goal", {"path": path}, "path must") for path in (5, None, [1, 2], [(0, 0, 1), (1, 2)], {"x": 1})),
+    ("goal", {"goal": 10**400}, "goal must"), ("goal", {"goal": (0, 0, 1), "speed": "fast"}, "speed must"),
+    ("goal", {"path": [], "yaw": [1]}, "yaw must"), ("velocity", {"velocity": (0, 10**400, 0)}, "velocity must"),
+    ("velocity", {"look_at": 5}, "look_at must"), ("velocity", {"trigger": [1, [2]]}, "trigger must"),
+])
+def test_a_wrong_value_in_an_action_is_named(actions: str, wrong: Any, match: str) -> None:
+    with pytest.raises(skein.InputError, match=match):
+        Orders("jurong", actions, {}).read(wrong)
 
 
 def test_later_steps_do_not_change_earlier_observations(fleet: skein.Fleet) -> None:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import Error, InputError
+from ..launch import path_text
 from . import messages, words
 from ._native import native
 from .member import translated, variable, whole
@@ -71,12 +72,13 @@ def _patience_s(value: float) -> float:
 
 
 def _flying_fleet(run: str | os.PathLike[str] | None) -> FlyingFleet:
+    folder = path_text("run", run) if run is not None else None
     found = list(_fleets())
-    if run is not None:
-        found = [fleet for fleet in found if fleet.folder == Path(run).resolve()]
+    if folder is not None:
+        found = [fleet for fleet in found if fleet.folder == Path(folder).resolve()]
     if len(found) == 1:
         return found[0]
-    which = "no fleet flies on this host" if run is None else f"no fleet flies into {os.fspath(run)}"
+    which = "no fleet flies on this host" if folder is None else f"no fleet flies into {folder}"
     if found:
         which = "several fleets fly: say which, by its folder: " + ", ".join(str(fleet.folder) for fleet in found)
     raise InputError(which)
@@ -152,7 +154,7 @@ class Listener:
         self._types = {topic: self._type(topic, of) for topic, of in named.items()}
         self._closed = self._heard_any = False
         self._missed = 0
-        keys = os.fspath(security) if security is not None else os.environ.get("SKEIN_SECURITY", "")
+        keys = path_text("security", security) if security is not None else os.environ.get("SKEIN_SECURITY", "")
         with translated():
             self._ear = native.Listener(whole("domain", str(domain), 230), dds or "cyclonedds", given_run, keys,
                                         self.node, [(topic, named[topic]) for topic in named], most)
@@ -171,7 +173,7 @@ class Listener:
         """The next message. None after `timeout_s` [s]; without a timeout, None when no program writes these topics any
         more."""
         if self._closed:
-            raise Error("it is closed")
+            raise Error("this listener is closed")
         if timeout_s is not None and not (math.isfinite(timeout_s) and timeout_s >= 0):
             raise InputError(f"timeout_s: must be at least 0, not {timeout_s!r}")
         while True:

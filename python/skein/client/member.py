@@ -15,6 +15,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from ..errors import Error, InputError, ProcessError
+from ..launch import path_text
 from ..planner import GimbalCommand, TrajectoryCommand
 from ..planner_config import AgentConfig, Vector, VectorLike
 from . import messages, words
@@ -92,7 +93,7 @@ class Client:
                  run: int | None = None, scenario: str | os.PathLike[str] | None = None,
                  security: str | os.PathLike[str] | None = None) -> None:
         self.name = variable("SKEIN_UAV", name)  #: name of the UAV, or "gcs"
-        file = variable("SKEIN_SCENARIO", None if scenario is None else os.fspath(scenario))
+        file = variable("SKEIN_SCENARIO", None if scenario is None else path_text("scenario", scenario))
         with translated():
             #: The rules of the mission, the own vehicle and the fleet. At the station `vehicle` is None.
             self.config: AgentConfig = words.config_of(native.config(file, self.name))
@@ -119,7 +120,7 @@ class Client:
                 file, self.name, whole("SKEIN_DOMAIN", variable("SKEIN_DOMAIN", domain), 230),
                 variable("SKEIN_DDS", dds), whole("SKEIN_RUN", str(run) if run is not None else
                                                   os.environ.get("SKEIN_RUN", "0"), 2**64 - 1),
-                os.fspath(security) if security is not None else os.environ.get("SKEIN_SECURITY", ""),
+                path_text("security", security) if security is not None else os.environ.get("SKEIN_SECURITY", ""),
                 self._read, self._writes, _LEASE_S)
         _open.add(self)
 
@@ -137,7 +138,7 @@ class Client:
         if self._closed:
             if self._step is not None and self._step.final:
                 raise StopIteration
-            raise Error("it is closed")
+            raise Error("this client is closed")
         with translated():
             going_on = self._member.next()
         if not going_on:
@@ -281,7 +282,7 @@ class Client:
 
     def _now(self) -> Step:
         if self._step is None or self._closed:
-            raise Error("it is closed" if self._closed else "there is no step yet: `for step in client:`")
+            raise Error("this client is closed" if self._closed else "there is no step yet: `for step in client:`")
         return self._step
 
     def _say(self, topic: str, message: Message) -> None:

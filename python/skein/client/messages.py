@@ -87,7 +87,7 @@ def type_named(name: str) -> type[Message]:
     if name not in _types:
         try:
             text = native.definition(name)
-        except KeyError:
+        except (KeyError, TypeError):  # TypeError: a text that is not UTF-8
             raise InputError(f"the message type '{name}' is not known; skein.client.messages.define() makes it so"
                              ) from None
         except native.WrongInput as error:

@@ -39,7 +39,7 @@ def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
     """`value` as a float64 array of the shape `shape`, in which -1 stands for any size. Raises InputError."""
     try:
         array = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{uav}: {name} must be numbers, not {value!r}") from None
     if array.shape == shape and len(shape) < 2:  # the usual case, by a fast check
         numbers = array.tolist()
@@ -51,6 +51,13 @@ def _numbers(uav: str, name: str, value: Any, shape: tuple[int, ...]) -> Any:
     if not np.isfinite(array).all():
         raise InputError(f"{uav}: {name} must be finite, not {value!r}")
     return array
+
+
+def _is_empty(value: Any) -> bool:
+    try:
+        return len(value) == 0
+    except TypeError:  # a single value
+        return False
 
 
 def check_names(uav: str, action: Any, actions: str) -> Mapping[str, Any]:
@@ -98,7 +105,7 @@ class Orders:
         if "trigger" not in action:
             return values
         trigger = action["trigger"]
-        if not (isinstance(trigger, (bool, np.bool_)) or (np.ndim(trigger) == 0 and trigger in (0, 1))):
+        if not (isinstance(trigger, (bool, np.bool_)) or (getattr(trigger, "ndim", 0) == 0 and trigger in (0, 1))):
             raise InputError(f"{uav}: trigger must be 0 or 1, not {trigger!r}")
         values["trigger"] = int(trigger)
         return values
@@ -110,10 +117,9 @@ class Orders:
             raise InputError(f"{uav}: speed must be above 0, not {speed}")
         if "goal" in action:
             points = _numbers(uav, "goal", action["goal"], (3,))[np.newaxis]
-        elif len(action["path"]) == 0:
-            points = np.zeros((0, 3))
         else:
-            points = _numbers(uav, "path", action["path"], (-1, 3))
+            path = action["path"]
+            points = _numbers(uav, "path", path, (-1, 3)) if not _is_empty(path) else np.zeros((0, 3))
         if len(points) > MOST_WAYPOINTS:
             raise InputError(f"{uav}: a path has {MOST_WAYPOINTS} waypoints at most, not {len(points)}")
         way = np.zeros((MOST_WAYPOINTS, 4))

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..launch import option_arguments, positional
+from ..launch import option_arguments, path_text, positional
 from . import settings, spaces
 from .actions import Orders, action_space
 from .observations import Observations
@@ -262,7 +262,7 @@ class Fleet:
         self._of(self._orders, uav)
         if self._actions != "velocity":
             raise InputError("only velocities can be flown again: actions='velocity'")
-        return hand_file(uav, self._log.get(uav, []), self._period_s, Path(file))
+        return hand_file(uav, self._log.get(uav, []), self._period_s, Path(path_text("file", file)))
 
     def render(self) -> str | None:
         """With render_mode="ansi": the fleet's state as text."""

@@ -45,7 +45,8 @@ def names(name: str, value: Any) -> list[str]:
 
 
 def cells(name: str, value: Any) -> list[int]:
-    if not isinstance(value, (Sequence, np.ndarray)) or isinstance(value, str) or len(value) != 3:
+    single = not isinstance(value, (Sequence, np.ndarray)) or isinstance(value, str) or getattr(value, "ndim", 1) == 0
+    if single or len(value) != 3:
         raise InputError(f"{name} must be three numbers of cells, along x, y and z, not {value!r:.80}")
     return [whole(f"{name}[{axis}]", size) for axis, size in enumerate(value)]
 
