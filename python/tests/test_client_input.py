@@ -134,6 +134,8 @@ def test_values_that_do_not_fit_are_named() -> None:
     ("my_msgs/Survey", "float64 x", "write it like"), ("my_msgs/msg/A", "", "no fields"),
     ("my_msgs/msg/B", "float64 x\nfloat64 x", "twice"), ("my_msgs/msg/C", "float64 x = 3", "is not a field"),
     ("std_msgs/msg/String", "float64 x", "with other fields"), ("my_msgs/msg/D", "float64[-1] x", "is not a field"),
+    ("my_msgs/msg/E", "float64[0] x", "without elements"), ("my_msgs/msg/F", "F more", "contains itself"),
+    ("my_msgs/msg/G", f"H[2] more\n{'=' * 80}\nMSG: my_msgs/H\nG more", "contains itself"),
 ])
 def test_definitions_are_checked(name: str, text: str, match: str) -> None:
     type_named("std_msgs/msg/String")

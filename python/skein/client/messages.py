@@ -129,6 +129,8 @@ def _add(name: str, text: str) -> type[Message]:
         if match is None:
             raise InputError(f"{name}, line {number}: '{line}' is not a field like 'float64 x' or 'float64[3] p'")
         kind, many, count, field = match.groups()
+        if count and int(count) == 0:
+            raise InputError(f"{name}, line {number}: '{line}' is an array without elements")
         if kind not in _NUMBERS and kind != "string":
             kind = _full(kind, name)
         fields.append(_Field(field, kind, None if many is None else int(count or 0)))
@@ -141,8 +143,22 @@ def _add(name: str, text: str) -> type[Message]:
             raise InputError(f"{name} is known already, with other fields: "
                              + ", ".join(field.name for field in known.FIELDS))
         return known
+    if name in _always_inside(fields):
+        raise InputError(f"{name}: contains itself, without an end")
     _types[name] = type(name.split("/")[-1], (Message,), body)
     return _types[name]
+
+
+def _always_inside(fields: list[_Field]) -> set[str]:
+    """The known types of which these fields contain messages at any depth, except in arrays that may be empty."""
+    found: set[str] = set()
+    left = list(fields)
+    while left:
+        field = left.pop()
+        if field.count != 0 and field.kind not in found:
+            found.add(field.kind)
+            left += _types[field.kind].FIELDS if field.kind in _types else ()
+    return found
 
 
 def new(type_name: str, **values: Any) -> Message:
