@@ -6,6 +6,7 @@ Keyword arguments become options of the command line: `one_process=True` is `--o
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import operator
 import os
@@ -161,19 +162,20 @@ def _read_both(child: subprocess.Popen[bytes], verbose: bool) -> tuple[str, str]
     assert child.stdout is not None and child.stderr is not None
     said: dict[int, bytearray] = {child.stdout.fileno(): bytearray(), child.stderr.fileno(): bytearray()}
     sinks = {child.stdout.fileno(): sys.stdout, child.stderr.fileno(): sys.stderr}
+    # Incremental, because a read may end in the middle of a character.
+    decoders = {descriptor: codecs.getincrementaldecoder("utf-8")(errors="replace") for descriptor in said}
     with selectors.DefaultSelector() as selector:
         for descriptor in said:
             selector.register(descriptor, selectors.EVENT_READ)
         while selector.get_map():
             for key, _ in selector.select():
                 data = os.read(key.fd, 1 << 16)
-                if not data:
-                    selector.unregister(key.fd)
-                    continue
                 said[key.fd] += data
                 if verbose:
-                    sinks[key.fd].write(data.decode(errors="replace"))
+                    sinks[key.fd].write(decoders[key.fd].decode(data, final=not data))
                     sinks[key.fd].flush()
+                if not data:
+                    selector.unregister(key.fd)
     out, err = (bytes(text).decode(errors="replace") for text in said.values())
     return out, err
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 from pathlib import Path
 from typing import Any
@@ -113,6 +114,15 @@ def test_a_run_prints_nothing_unless_it_is_verbose(tmp_path: Path, capfd: pytest
     assert capfd.readouterr() == ("", "")
     skein.run(launcher=program, verbose=True)
     assert capfd.readouterr() == (f"results   {tmp_path}\n", "working\n")
+
+
+def test_a_character_that_arrives_in_two_parts_is_printed_as_one(
+        tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    program, read = launcher_that(tmp_path, f"echo 'results   {tmp_path}'", "printf 'é€\\303' >&2"), os.read
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("os.read", lambda descriptor, _size: read(descriptor, 1))
+        skein.run(launcher=program, verbose=True)
+    assert capfd.readouterr().err == "é€\ufffd"
 
 
 def test_wrong_input_says_what_would_be_right(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
