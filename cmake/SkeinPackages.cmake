@@ -41,8 +41,8 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_REPLACES skein-agent)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "distributed simulator of inspection UAVs
 ${about}
 .
-This package is all that flies: the launcher, the simulation server, the
-radio's router, the ground station and the UAVs' on-board software.")
+This package contains all programs of a flight: the launcher, the simulation
+server, the radio's router, the ground station and the UAVs' on-board software.")
 
 # The packages that ./skein installs for a build, without those that only Skein's own build needs.
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME skein-dev)
@@ -64,8 +64,8 @@ set(CPACK_DEBIAN_SOURCE_PACKAGE_ARCHITECTURE all)
 set(CPACK_COMPONENT_SOURCE_DESCRIPTION "code of Skein, for debuggers
 ${about}
 .
-This package is what debuggers show of Skein with the symbols of skein-dbgsym or
-skein-agent-dbgsym. Nothing is built from it.")
+This package contains the source code of Skein that debuggers show with the
+symbols of skein-dbgsym or skein-agent-dbgsym. Nothing is built from it.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-skein)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

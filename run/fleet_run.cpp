@@ -237,7 +237,7 @@ void FleetRun::tell_waiting() {
 void FleetRun::hear(const status::Rejoined& rejoined) {
   orders_->returned(program_of(rejoined.member));
   if (failed_programs_.erase(program_of(rejoined.member)) > 0) {
-    view_.message(rejoined.member + " was started again by somebody else, and takes part again");
+    view_.message(rejoined.member + " was started again by hand, and takes part again");
   }
 }
 

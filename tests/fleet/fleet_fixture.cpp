@@ -163,7 +163,7 @@ FleetTest::~FleetTest() {
   programs_.clear();
   runs_.clear();
   if (HasFailure()) {
-    std::cerr << "kept for a look: " << folder_.string() << std::endl;
+    std::cerr << "the test's folder is kept: " << folder_.string() << std::endl;
   } else {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);

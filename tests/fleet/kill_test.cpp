@@ -107,7 +107,7 @@ TEST_F(Interruption, AProgramThatIsStartedAgainByHandTakesPartAgain) {
   ChildProcess& again = start_program("again", words);
   EXPECT_EQ(run.exit_code(), 0) << run.err();
   EXPECT_EQ(again.wait().code, 0) << again.err();
-  EXPECT_NE(run.err().find("changi was started again by somebody else, and takes part again"), std::string::npos);
+  EXPECT_NE(run.err().find("changi was started again by hand, and takes part again"), std::string::npos);
   const Json result = run.result();
   ASSERT_EQ(result["lost_members"].size(), 1u) << result["lost_members"];
   const Json lost = result["lost_members"][0];

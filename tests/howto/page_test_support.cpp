@@ -166,7 +166,8 @@ bool PageTest::give(const PageBlock& block) {
   for (const auto& [kind, text] : block.notes) {
     if (kind != "given") continue;
     std::smatch match;
-    if (!std::regex_match(text, match, kGiven)) throw std::runtime_error("nobody can give: " + text);
+    if (!std::regex_match(text, match, kGiven))
+      throw std::runtime_error("this note names an unknown kind of file: " + text);
     const fs::path file = checkout_ / match.str(1);
     const char* const assets = std::getenv("SKEIN_ASSETS");
     if (match[2] == "the data files" && assets == nullptr) return false;

@@ -124,7 +124,7 @@ TEST_F(RosPlanner, FliesOnAfterItIsKilledAndRestartedByHand) {
     const std::filesystem::path log = fleet.dir() / "sim_server.log";
     ASSERT_TRUE(eventually([&] { return text_of(log).find("jurong is lost") != std::string::npos; })) << text_of(log);
     ChildProcess& again = start_program(std::string("again_") + middleware, argv, environment);
-    ASSERT_TRUE(fleet.wait_for("jurong was started again by somebody else")) << fleet.err() << again.err();
+    ASSERT_TRUE(fleet.wait_for("jurong was started again by hand")) << fleet.err() << again.err();
     const auto flown_s = [&] {
       const auto rows = read_csv(fleet.dir() / "trajectories.csv", LastLine::may_be_unfinished);
       return rows.empty() ? 0.0 : std::stod(rows[rows.size() - kFleet.size()].at("time_s"));

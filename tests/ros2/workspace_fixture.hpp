@@ -16,7 +16,7 @@ exec 9>"$2.lock"
 flock 9
 built=$2/built
 [[ ! -e $built || -n $(find "$3/ros2/" -newer "$built" -print -quit) ]] || exit 0
-[[ -e $built ]] || rm -rf "$2"/*  # begun in another way, by Make say
+[[ -e $built ]] || rm -rf "$2"/*  # left by a build with another generator, for example Make
 ln -sfn "$3/ros2" "$2/ros2"
 touch "$built.since"
 set +u

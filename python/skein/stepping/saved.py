@@ -16,7 +16,8 @@ def hand_file(uav: str, log: list[tuple[int, dict[str, Any]]], period_s: float, 
     numbers = [0.0] * 6
     for step, values in log:
         if values.get("trigger") or values.get("gimbal_kind", 1) != 1:
-            raise InputError(f"{uav} was told a trigger or where to look: that is in no file of the planner hand")
+            raise InputError(f"{uav} got an action with trigger, gimbal or look_at, which a file of the planner hand "
+                             "cannot contain")
         if "velocity" in values:
             numbers[:3] = map(float, values["velocity"])
         if "yaw_rate" in values:
