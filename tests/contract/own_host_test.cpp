@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <vector>
 
 #include "bus/own_host.hpp"
 #include "bus_fixture.hpp"
@@ -38,8 +39,11 @@ TEST_P(OwnHost, MatchesParticipantsWithDefaultSettings) {
     there->write(numbered(i, 20'000));
     back->write(numbered(100 + i));
   }
-  EXPECT_EQ(at_other.numbers(50).back(), 49U);
-  EXPECT_EQ(at_fleet.numbers(50).back(), 149U);
+  const std::vector<std::uint64_t> numbers_there = at_other.numbers(50), numbers_back = at_fleet.numbers(50);
+  ASSERT_EQ(numbers_there.size(), 50U);
+  ASSERT_EQ(numbers_back.size(), 50U);
+  EXPECT_EQ(numbers_there.back(), 49U);
+  EXPECT_EQ(numbers_back.back(), 149U);
 }
 
 // A process cannot have two participants of Cyclone DDS with different settings in one domain: tests/ros2 tests this

@@ -73,6 +73,7 @@ TEST_F(Leftovers, EndWhenTheProgramIsKilled) {
   SkeinRun& run = start_run("2000");
   ASSERT_TRUE(run.wait_until_flying()) << run.err();
   const std::vector<pid_t> pids = started();
+  ASSERT_FALSE(pids.empty());
   ::kill(pids.back(), SIGKILL);  // the client; then its shell ends
   ASSERT_TRUE(run.wait_for("uav_agent-jurong failed: exit code 137")) << run.err();
   expect_gone(pids);
