@@ -248,8 +248,8 @@ TEST_F(MadeUpTree, LongFunctionsAreFoundUnlessTheListHasThem) {
   file("core/short.cpp", "void h() {\n1;\n2;\n}\nvoid long_one() { // {\n}\n");
   file("core/a_test.cpp", "void f()" + three);
   EXPECT_EQ(places(check_functions(tree(), {}, 2)), (Places{"core/a.cpp:2", "core/a.cpp:8", "core/b.cpp:2"}));
-  EXPECT_EQ(places(check_functions(tree(), {{"core/a.cpp", "f", ""}, {"core/a.cpp", "g", ""}}, 2)),
-            Places{"core/b.cpp:2"});
+  EXPECT_EQ(places(check_functions(tree(), {{"core/a.cpp", "f", ""}, {"core/a.cpp", "g", ""}, {"x", "f", ""}}, 2)),
+            (Places{"core/b.cpp:2", "x:1"}));
   EXPECT_EQ(places(check_functions(tree(), {{"core/short.cpp", "h", ""}}, 3)), Places{"core/short.cpp:1"});
 }
 
