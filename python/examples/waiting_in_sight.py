@@ -17,7 +17,7 @@ def waits(run: skein.Run) -> list[tuple[str, str, float, float]]:
         ends = [*rows["time_s"][1:], run.sim_time_s]
         for row, until_s in zip(rows, ends):
             mate = str(row["waits_for"])
-            on_the_ground = str(row["mode"]).startswith(("takes off", "waits to be shown", "is shown"))
+            on_the_ground = str(row["mode"]).startswith(("on the ground", "takes off", "waits to be shown"))
             if role == "photographer" and roles.get(mate) == "explorer" and not on_the_ground:
                 found.append((uav, mate, float(row["time_s"]), float(until_s)))
     return found

@@ -13,7 +13,7 @@ import skein
 
 # Groups of the activities in docs/view.md, by the first words of the activities.
 GROUPS = {
-    "waits on the ground until an explorer has proved the space above it free": ("waits to be shown", "is shown"),
+    "waits on the ground until an explorer has proved the space above it free": ("waits to be shown",),
     "is on the ground, or takes off": ("on the ground", "takes off"),
     "is stopped, too near to structure": ("stands: too near",),
     "is stopped, because another UAV is in the way": ("stands: another UAV",),
