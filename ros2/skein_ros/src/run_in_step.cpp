@@ -32,12 +32,10 @@ void* make_room() {
 /// The symbol of CLASS::CLASS(const rclcpp::NodeOptions&).
 std::string constructor_of(const std::string& name) {
   std::string mangled;
-  int parts = 0;
   std::istringstream text(name);
   for (std::string part; std::getline(text, part, ':');) {
     if (part.empty()) continue;
     mangled += std::to_string(part.size()) + part;
-    ++parts;
   }
   return "_ZN" + mangled + "C1ERKN6rclcpp11NodeOptionsE";
 }
