@@ -167,8 +167,9 @@ void Planner::hear_odometry(const nav_msgs::msg::Odometry& message) {
 
 void Planner::step() {
   for (const auto& ear : ends_->ears) ear();
+  if (!ends_->has_state) return;  // messages that have arrived so far wait for the first plan()
   try {
-    if (ends_->has_state) plan(ends_->inputs);
+    plan(ends_->inputs);
   } catch (const std::exception& error) {
     fail("the planner threw: " + std::string(error.what()));
   }

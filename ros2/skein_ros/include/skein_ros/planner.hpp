@@ -52,7 +52,7 @@ struct Inputs {
   std::vector<Neighbour> neighbours;
   sensor_msgs::msg::PointCloud2::ConstSharedPtr scan;        ///< if one came in this step, else null; points in W
   sensor_msgs::msg::PointCloud2::ConstSharedPtr detections;  ///< all interest points seen so far by this UAV; or null
-  std::vector<std::string> messages;                         ///< received by radio in this step, from others' say()
+  std::vector<std::string> messages;  ///< received by radio since the last plan(), by others' say()
 
   bool sees_station() const;
 };
