@@ -5,6 +5,7 @@
 
 #include "fleet_fixture.hpp"
 #include "small_scene.hpp"
+#include "uav_agent/flight_core/flight_config.hpp"
 
 namespace skein::test {
 namespace {
@@ -90,10 +91,11 @@ class BadCases : public FleetTest, public testing::WithParamInterface<BadCase> {
 /// FlightConfig (error_m, error_per_mps_s). Uses the bound of explorers, which is the greater one, for all UAVs. The
 /// report counts errors in steps of 1 cm.
 void expect_small_tracking_errors(const Json& result) {
-  constexpr double kError_m = 0.33, kPerMps_s = 0.03, kRounded_m = 0.01;
+  constexpr double kRounded_m = 0.01;
+  const agent::FlightConfig flight;
   for (const Json& speeds : result["flight_check"]["tracking_by_speed"]) {
     const double most_mps = speeds["from_mps"].get<double>() + 1.0;
-    EXPECT_LE(speeds["p9999"].get<double>(), kError_m + kPerMps_s * most_mps + kRounded_m) << speeds;
+    EXPECT_LE(speeds["p9999"].get<double>(), flight.error_m + flight.error_per_mps_s * most_mps + kRounded_m) << speeds;
   }
 }
 
