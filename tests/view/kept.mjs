@@ -64,11 +64,25 @@ async function checkPoint(page) {
   expect(shown.includes(score.toFixed(3)), `the page shows ${shown} for point ${index}, and score.csv has ${score}`);
 }
 
+const seed = Number(process.env.SKEIN_FUZZ_SEED) || (Math.random() * 2 ** 32) >>> 0;
+console.error(`SKEIN_FUZZ_SEED=${seed}`);  // with this seed in the environment, the test draws the same values
+
+/** Random numbers in [0, 1) that the seed determines (mulberry32). */
+function drawsFrom(state) {
+  return () => {
+    state = (state + 0x6D2B79F5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+const draw = drawsFrom(seed);
+
 /** Draws random steps: the bars have no gaps, and each step that is at least a pixel wide has a bar with its value. */
 function checkBars() {
   for (let tries = 0; tries < 200; ++tries) {
-    const t = Array.from({length: 30}, () => Math.random() ** 3 * 100).sort((a, b) => a - b);
-    const v = t.map(() => Math.floor(5 * Math.random()));
+    const t = Array.from({length: 30}, () => draw() ** 3 * 100).sort((a, b) => a - b);
+    const v = t.map(() => Math.floor(5 * draw()));
     const bars = barsOf({t, v}, 100, (time) => time);
     expect(bars.every(([from, to], i) => from <= to && (i === 0 || from === bars[i - 1][1])), `bars have gaps: ${bars}`);
     t.forEach((begin, i) => {
@@ -124,7 +138,7 @@ const filmed = (seconds) => page.evaluate(async (at) => {
   return document.getElementById('fleet').innerText;
 }, seconds);
 await page.evaluate(() => film.begin(''));
-const moments = Array.from({length: 8}, (_, k) => (k + Math.random()) * result.sim_time_s / 8);
+const moments = Array.from({length: 8}, (_, k) => (k + draw()) * result.sim_time_s / 8);
 const fast = [];
 for (const seconds of moments) fast.push(await filmed(seconds));
 for (const [k, seconds] of moments.entries()) {

@@ -47,7 +47,7 @@ class ViewTest : public FleetTest {
                                       source_path("web"), command_file("chromium")},
                                      arguments));
     EXPECT_EQ(node.wait(kBrowserPatience).code, 0) << node.err() << node.out();
-    EXPECT_EQ(node.out(), "");
+    EXPECT_EQ(node.out(), "") << node.err();
   }
 };
 
