@@ -3,11 +3,12 @@
 #include <signal.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
-#include <sstream>
 
+#include "core/text/text.hpp"
 #include "json_schema.hpp"
 #include "process/host/host_lock.hpp"
 #include "results_page.hpp"
@@ -18,14 +19,6 @@ namespace skein::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::stringstream in(text);
-  for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
-  if (!text.empty() && text.back() == separator) parts.emplace_back();
-  return parts;
-}
 
 /// The word after `option`; empty when there is none.
 std::string value_of(const std::vector<std::string>& words, const std::string& option) {
@@ -86,7 +79,7 @@ std::map<std::string, pid_t> processes_of(const fs::path& dir) {
     const std::string pid = it->path().filename();
     if (pid.find_first_not_of("0123456789") != std::string::npos) continue;
     const std::vector<std::string> words = split(text_of(it->path() / "cmdline"), '\0');
-    if (words.empty()) continue;
+    if (words[0].empty()) continue;
     const std::vector<std::string> variables = split(text_of(it->path() / "environ"), '\0');
     if (value_of(words, "--out") == dir) {
       const std::string uav = value_of(words, "--uav");
@@ -94,6 +87,17 @@ std::map<std::string, pid_t> processes_of(const fs::path& dir) {
     } else if (variable(variables, "SKEIN_OUT") == dir) {
       found["uav_agent-" + variable(variables, "SKEIN_UAV")] = std::stoi(pid);
     }
+  }
+  return found;
+}
+
+std::vector<std::string> command_lines_with(const std::string& text) {
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (fs::directory_iterator it("/proc", ignored), end; it != end; it.increment(ignored)) {
+    std::string line = text_of(it->path() / "cmdline");
+    std::ranges::replace(line, '\0', ' ');
+    if (line.find(text) != std::string::npos) found.push_back(line);
   }
   return found;
 }

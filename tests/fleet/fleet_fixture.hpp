@@ -35,6 +35,8 @@ std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::
 /// The processes of a fleet, by their names in Skein's messages: those with `--out dir` in their command line, and
 /// user's commands with SKEIN_OUT=dir in their environment.
 std::map<std::string, pid_t> processes_of(const std::filesystem::path& dir);
+/// The command lines of all processes that contain a text, such as the path of a test's folder.
+std::vector<std::string> command_lines_with(const std::string& text);
 
 /// True once the server has written some simulated seconds of trajectories: it writes them in blocks.
 bool is_flying(const std::filesystem::path& dir);

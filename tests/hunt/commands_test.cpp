@@ -50,18 +50,6 @@ class HuntCommands : public FleetTest {
   }
 };
 
-/// Command lines of all processes that contain the path of this folder.
-std::string processes_below(const fs::path& dir) {
-  std::string found;
-  std::error_code ignored;
-  for (fs::directory_iterator it("/proc", ignored), end; it != end; it.increment(ignored)) {
-    std::string words = text_of(it->path() / "cmdline");
-    std::ranges::replace(words, '\0', ' ');
-    if (words.find(dir.string() + "/") != std::string::npos) found += words + "\n";
-  }
-  return found;
-}
-
 struct Counts {
   std::size_t held = 0, failed = 0, vacuous = 0;
   bool operator==(const Counts&) const = default;
@@ -201,7 +189,9 @@ TEST_F(HuntCommands, CtrlCLeavesAWholeLogAndTheSameCommandContinues) {
   const ExitStatus exit = stopped.wait();
   EXPECT_EQ(exit.code, 130) << stopped.err();
   EXPECT_EQ(exit.signal, 0);
-  EXPECT_TRUE(eventually([&] { return processes_below(folder()).empty(); })) << processes_below(folder());
+  const std::string below = folder().string() + "/";
+  EXPECT_TRUE(eventually([&] { return command_lines_with(below).empty(); }))
+      << testing::PrintToString(command_lines_with(below));
   const std::size_t flown = log("stopped").size();
   EXPECT_GE(flown, 3u);
   EXPECT_NE(stopped.out().find(" runs, "), std::string::npos)

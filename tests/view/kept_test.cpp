@@ -103,15 +103,8 @@ class FilmOfARun : public KeptRun {
     }
   }
 
-  /// Processes whose command line names this test's folder for temporary files.
-  std::size_t processes_there() const {
-    std::size_t count = 0;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator("/proc", error)) {
-      if (text_of(entry.path() / "cmdline").find(temporary().string()) != std::string::npos) ++count;
-    }
-    return count;
-  }
+  /// Number of processes whose command line names this test's folder for temporary files.
+  std::size_t processes_there() const { return command_lines_with(temporary()).size(); }
   fs::path temporary() const { return folder() / "temporary"; }
 };
 
