@@ -129,7 +129,8 @@ def test_peers_have_fields_that_say_how_accurate_they_are(tmp_path: Path, condit
 
 
 def test_the_hash_seed_changes_the_flight_of_a_planner_that_depends_on_the_order_of_a_set(tmp_path: Path) -> None:
-    """This is how check-planner finds such a planner. With the same seed of hashes, the flight is the same."""
+    """This is how check-planner finds such a planner (tests/hunt/check_planner_test.cpp). With the same seed of hashes,
+    the flight is the same."""
     (tmp_path / "sets.py").write_text(
         "from skein.planner import *\n"
         "class Sets(Planner):\n"

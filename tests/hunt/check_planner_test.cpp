@@ -87,6 +87,22 @@ TEST_F(CheckPlanner, APlannerThatReadsTheCalendarIsNamed) {
                    {"the runs part at step ", "jurong first differs at ", "usually it is the wall clock\n"});
 }
 
+TEST_F(CheckPlanner, APlannerInPythonThatDependsOnTheOrderOfASetIsNamed) {
+  const std::string planner = write("sets.py",
+                                    "from skein.planner import *\n"
+                                    "class Sets(Planner):\n"
+                                    "    def plan(self, inputs):\n"
+                                    "        if inputs.k != 20: return None\n"
+                                    "        first = next(iter({f'text {i}' for i in range(50)}))\n"
+                                    "        up = [0, 0, 2 + 0.1 * int(first[5:])]\n"
+                                    "        return PlannerOutput(Path([Waypoint(inputs.state.p_WB + up)]))\n");
+  const Said said = check("py:" + planner, false);
+  EXPECT_EQ(said.code, 1) << said.out;
+  const auto different = told(said.out, "DIFFERENT");
+  ASSERT_EQ(different.size(), 2U) << said.out;
+  EXPECT_EQ(different[0], std::set<std::string>{"hash"}) << said.out;
+}
+
 TEST_F(CheckPlanner, APlannerOfAnotherAgentIsUnknownWithoutIt) {
   const Said said = check("planted", false);
   EXPECT_EQ(said.code, 2) << said.out;
