@@ -93,6 +93,7 @@ class BadCases : public FleetTest, public testing::WithParamInterface<BadCase> {
 void expect_small_tracking_errors(const Json& result) {
   constexpr double kRounded_m = 0.01;
   const agent::FlightConfig flight;
+  EXPECT_FALSE(result["flight_check"]["tracking_by_speed"].empty());
   for (const Json& speeds : result["flight_check"]["tracking_by_speed"]) {
     const double most_mps = speeds["from_mps"].get<double>() + 1.0;
     EXPECT_LE(speeds["p9999"].get<double>(), flight.error_m + flight.error_per_mps_s * most_mps + kRounded_m) << speeds;
