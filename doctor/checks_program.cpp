@@ -4,12 +4,10 @@
 #include <chrono>
 
 #include "bus/own_host.hpp"
-#include "bus/reach.hpp"
 #include "bus/wire.hpp"
 #include "core/types.hpp"
 #include "doctor/machine_judges.hpp"
 #include "doctor/network_judges.hpp"
-#include "doctor/peers.hpp"
 #include "doctor/software_judges.hpp"
 #include "process/host/address_text.hpp"
 
@@ -82,6 +80,18 @@ Findings examine(const Visit& visit) {
   add(findings, judge_variables(read_variables()));
   findings.push_back(judge_docker(ask_docker()));
   return findings;
+}
+
+std::vector<PeerFacts> peers_of(const std::vector<std::string>& names, const bus::Addresses& addresses) {
+  std::vector<PeerFacts> peers;
+  for (const std::string& name : names) {
+    PeerFacts& peer = peers.emplace_back(PeerFacts{.name = name});
+    const auto address = addresses.find(name);
+    if (address == addresses.end()) continue;
+    peer.address = address_text(address->second);
+    if (const auto source = bus::source_towards(address->second)) peer.source = address_text(*source);
+  }
+  return peers;
 }
 
 }  // namespace skein::doctor

@@ -13,11 +13,10 @@
 
 #include "bus/bus.hpp"
 #include "bus/inbox.hpp"
-#include "bus/reach.hpp"
 #include "core/text/suggestion.hpp"
 #include "core/types.hpp"
+#include "doctor/checks_program.hpp"
 #include "doctor/greeting_socket.hpp"
-#include "doctor/peers.hpp"
 #include "process/host/host_name.hpp"
 
 namespace skein::doctor {

@@ -125,7 +125,8 @@ PAIRS = Table("pairs", "pairs.csv", (
 
 # In the file, a column test_N for each test follows the first three of these columns.
 TOTALS = Table("totals", "totals.csv", (
-    Column("place", "number?"), *_columns("text", "", "planner ranked_by"), *_columns("number?", "", "max median worst")),
+    Column("place", "number?"), *_columns("text", "", "planner ranked_by"),
+    *_columns("number?", "", "max median worst")),
     "only a contest has it (`skein.contest`)")
 
 STUDY_TABLES = {table.name: table for table in (FLIGHTS, SUMMARY, PAIRS, TOTALS)}

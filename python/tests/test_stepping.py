@@ -281,3 +281,14 @@ def test_the_truth_differs_from_the_observations_of_a_uav(faults: Path, tmp_path
     kills.write_text("faults:\n  - {at_s: 1, until_s: 2, kill: station}\n")
     with pytest.raises(skein.InputError, match="kill or pause"):
         skein.Fleet("towers", faults=kills)
+
+
+def test_calls_after_close_are_refused_with_a_message() -> None:
+    fleet = skein.Fleet("towers", learners=["jurong"], duration=5)
+    truth = fleet.truth
+    fleet.close()
+    for call in (fleet.step, fleet.reset, fleet.fork, fleet.result, fleet.state, lambda: fleet.truth,
+                 lambda: truth.points):
+        with pytest.raises(skein.InputError, match="closed|ended"):
+            call()
+    assert "closed" in repr(fleet)

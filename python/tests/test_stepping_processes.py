@@ -389,14 +389,3 @@ def test_refused_actions_and_calls_do_not_change_the_flight() -> None:
             with pytest.raises(skein.InputError, match="end_step"):
                 call()
         fleet.end_step()
-
-
-def test_calls_after_close_are_refused_with_a_message() -> None:
-    fleet = skein.Fleet("towers", learners=["jurong"], duration=5)
-    truth = fleet.truth
-    fleet.close()
-    for call in (fleet.step, fleet.reset, fleet.fork, fleet.result, fleet.state, lambda: fleet.truth,
-                 lambda: truth.points):
-        with pytest.raises(skein.InputError, match="closed|ended"):
-            call()
-    assert "closed" in repr(fleet)
