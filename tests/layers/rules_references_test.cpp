@@ -7,16 +7,16 @@ namespace skein::layers {
 namespace {
 
 TEST(NamedTests, ANameOfNoTestIsFoundUnlessThePageSaysThatItIsAFormerOne) {
-  const SourceFile code{
-      .path = "core/map_test.cpp",
-      .code = {"TEST(Map, HearsAll) {}", "TEST_F(Map,", "       TellsAll) {", "}", "TEST_P(Steps, AreCounted) {}"}};
-  const SourceFile good{.path = "docs/good.md",
-                        .lines = {"`Map.HearsAll`, `Map.Tells...` and `Steps.AreCounted`; `Other.Test`, `map.at`",
-                                  "`Map.WasHere` (gone), `Map.Was...` (now two tests) and Map.WithoutQuotes"}};
+  SourceFile code, good, bad;
+  code.path = "core/map_test.cpp";
+  code.code = {"TEST(Map, HearsAll) {}", "TEST_F(Map,", "       TellsAll) {", "}", "TEST_P(Steps, AreCounted) {}"};
+  good.path = "docs/good.md";
+  good.lines = {"`Map.HearsAll`, `Map.Tells...` and `Steps.AreCounted`; `Other.Test`, `map.at`",
+                "`Map.WasHere` (gone), `Map.Was...` (now two tests) and Map.WithoutQuotes"};
   EXPECT_EQ(check_named_tests({code, good}), Violations{});
 
-  const SourceFile bad{.path = "docs/folder/bad.md",
-                       .lines = {"", "`Map.HearsAl` and `Map.Sees...`", "`Map.AreCounted` (really)"}};
+  bad.path = "docs/folder/bad.md";
+  bad.lines = {"", "`Map.HearsAl` and `Map.Sees...`", "`Map.AreCounted` (really)"};
   EXPECT_EQ(check_named_tests({code, bad}), (Violations{"docs/folder/bad.md:2: there is no test `Map.HearsAl`",
                                                         "docs/folder/bad.md:2: there is no test `Map.Sees...`",
                                                         "docs/folder/bad.md:3: there is no test `Map.AreCounted`"}));

@@ -7,10 +7,12 @@
 
 namespace skein::agent::goal_ids {
 
-inline constexpr std::int64_t kRecovery = -1;  ///< of recovery's flights to places; numeric
-inline constexpr std::int64_t kHome = -2;      ///< a place to deliver captures; numeric
-inline constexpr std::int64_t kTrail = -3;     ///< the UAV's own trail; numeric
-inline constexpr std::int64_t kShowing = -4;   ///< a place beside a photographer; numeric
-inline constexpr std::int64_t kSite = -5;  ///< the first site to land; each further site has the next lower id; numeric
+enum : std::int64_t {
+  kRecovery = -1,  ///< recovery's flights to places; numeric
+  kHome = -2,      ///< a place to deliver captures; numeric
+  kTrail = -3,     ///< the UAV's own trail; numeric
+  kShowing = -4,   ///< a place beside a photographer; numeric
+  kSite = -5,      ///< the first site to land; each further site has the next lower id; numeric
+};
 
 }  // namespace skein::agent::goal_ids

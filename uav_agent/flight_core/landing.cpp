@@ -58,8 +58,8 @@ void Landing::fly_to_site(const PlannerInput& in, bool must_sink, Steering& stee
   navigator_.step(in, filter_.held(), steering);
   std::optional<Vector3d> at_W;
   for (const Outcome& outcome : navigator_.take_outcomes()) {
-    if (outcome.kind == Outcome::Kind::reached)
-      at_W = sites_W_.at(static_cast<std::size_t>(goal_ids::kSite - outcome.id));
+    if (outcome.kind != Outcome::Kind::reached) continue;
+    at_W = sites_W_.at(static_cast<std::size_t>(goal_ids::kSite - outcome.id));
   }
   if (across_m(in.state.p_WB, place_W_) < kAboveSiteM && !was_held_above(place_W_)) at_W = place_W_;
   if (must_sink && !at_W) at_W = in.tracking.setpoint.p_WB;
