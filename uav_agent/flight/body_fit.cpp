@@ -54,13 +54,12 @@ bool BodyFit::fits(const Vector3d& p_W) const {
   return answer.fits == Fits::everywhere;
 }
 
-/// Two checks at the middle of a cube bound the answer for all places in it.
+/// Two checks at the middle of a cube bound the answer for all places in it. First the one that fails in unknown space.
 BodyFit::Fits BodyFit::fits_in(const WorldMap::Cube& cube) const {
   const double to_corner_m = 0.5 * std::numbers::sqrt3 * map_->config().cell_m;
   const Vector3d middle_W = map_->middle_W(cube);
-  if (map_->ball_free(middle_W, radius_m_ + to_corner_m, ground_m_)) return Fits::everywhere;
-  const bool nowhere = !map_->ball_free(middle_W, std::max(0.0, radius_m_ - to_corner_m), ground_m_);
-  return nowhere ? Fits::nowhere : Fits::somewhere;
+  if (!map_->ball_free(middle_W, std::max(0.0, radius_m_ - to_corner_m), ground_m_)) return Fits::nowhere;
+  return map_->ball_free(middle_W, radius_m_ + to_corner_m, ground_m_) ? Fits::everywhere : Fits::somewhere;
 }
 
 }  // namespace skein::agent

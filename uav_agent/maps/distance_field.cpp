@@ -55,18 +55,19 @@ DistanceField::DistanceField(double cell_m, double reach_m) : cell_m_(cell_m), r
 
 /// Looks only at the block and its 26 neighbours: occupied cells beyond them are out of reach.
 void DistanceField::make(const Cell& at, const OccupiedIn& occupied_in, Block& block) {
-  occupied_.clear();
+  std::array<std::array<std::uint32_t, kSide>, kSide> rows = {};  // [z][y]
   for_each_about(at, [&](const Cell& near) {
-    if (changed_.find(grid_key(near)) != nullptr) occupied_in(near, occupied_);
+    if (changed_.find(grid_key(near)) == nullptr) return;
+    const CellRows occupied = occupied_in(near);
+    const Cell first = (near - at + Cell::Ones()) * kBlock;
+    for (int row = 0; row < kBlock * kBlock; ++row) {
+      const int y = first.y() + row % kBlock, z = first.z() + row / kBlock;
+      rows[static_cast<std::size_t>(z)][static_cast<std::size_t>(y)] |=
+          std::uint32_t{occupied[static_cast<std::size_t>(row)]} << first.x();
+    }
   });
   block.made_at = changes_;
   // Axis by axis: squared gaps along x for each row of cells, then the minimum over y, then over z.
-  std::array<std::array<std::uint32_t, kSide>, kSide> rows = {};  // [z][y]
-  const Cell low = (at - Cell::Ones()) * kBlock;
-  for (const Cell& cell : occupied_) {
-    const Cell in = cell - low;
-    rows[static_cast<std::size_t>(in.z())][static_cast<std::size_t>(in.y())] |= std::uint32_t{1} << in.x();
-  }
   Row far;
   far.fill(kFar);
   std::array<std::array<Row, kBlock>, kBlock> squares;

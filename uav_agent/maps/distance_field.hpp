@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <vector>
 
 #include "uav_agent/maps/block_table.hpp"
+#include "uav_agent/maps/cell_rows.hpp"
 
 namespace skein::agent {
 
@@ -18,8 +18,8 @@ class DistanceField {
  public:
   using Cell = Eigen::Vector3i;
   static constexpr int kBlockBits = 3, kBlock = 1 << kBlockBits;  ///< memory: cells along an edge of a block
-  /// Appends the occupied cells of a block of 8^3 cells to `cells`. @param block  cell index divided by 8 (block_of()).
-  using OccupiedIn = std::function<void(const Cell& block, std::vector<Cell>& cells)>;
+  /// The occupied cells of a block of 8^3 cells. @param block  cell index divided by 8 (block_of()).
+  using OccupiedIn = std::function<CellRows(const Cell& block)>;
 
   /// @param reach_m  search radius; it must be 1 to 8 times `cell_m`.
   /// @throws std::invalid_argument if it is not.
@@ -56,7 +56,6 @@ class DistanceField {
   BlockTable<std::uint64_t> changed_;  ///< by block: number of its last change
   BlockTable<Newest> newest_;          ///< by block that was queried
   std::uint64_t changes_ = 0;
-  std::vector<Cell> occupied_;
 };
 
 }  // namespace skein::agent

@@ -34,10 +34,14 @@ double slow_distance_m(const std::vector<Cell>& occupied, const Cell& cell) {
 }
 
 void expect_exact(DistanceField& field, const std::vector<Cell>& occupied) {
-  const auto occupied_in = [&](const Cell& block, std::vector<Cell>& cells) {
+  const auto occupied_in = [&](const Cell& block) {
+    CellRows rows = {};
     for (const Cell& cell : occupied) {
-      if (Cell(cell.x() >> 3, cell.y() >> 3, cell.z() >> 3) == block) cells.push_back(cell);
+      if (shifted(cell, 3) != block) continue;
+      const auto row = static_cast<std::size_t>((cell.z() & 7) * 8 + (cell.y() & 7));
+      rows[row] |= static_cast<std::uint8_t>(1 << (cell.x() & 7));
     }
+    return rows;
   };
   for (int i = 0; i < 48 * 48 * 48; i += 5) {
     const Cell cell = Cell(i % 48, i / 48 % 48, i / (48 * 48)) - Cell::Constant(24);
@@ -70,9 +74,11 @@ TEST(DistanceField, IsTheDistanceToTheNearestCellAsCellsComeAndGo) {
 TEST(DistanceField, ComputesABlockAgainOnlyIfSomethingNearItHasChanged) {
   DistanceField field(kCubeM, kReachM);
   int asked = 0;
-  const auto occupied_in = [&](const Cell& block, std::vector<Cell>& cells) {
+  const auto occupied_in = [&](const Cell& block) {
     ++asked;
-    if (block == Cell(0, 0, 0)) cells.emplace_back(1, 1, 1);
+    CellRows rows = {};
+    if (block == Cell(0, 0, 0)) rows[9] = 2;  // the cell (1, 1, 1)
+    return rows;
   };
   EXPECT_EQ(field.distance_m({5, 1, 1}, occupied_in), kReachM);
   EXPECT_EQ(asked, 0) << "nothing is occupied";

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "uav_agent/maps/block_table.hpp"
+#include "uav_agent/maps/cell_rows.hpp"
 #include "uav_agent/maps/free_evidence.hpp"
 
 namespace skein::agent {
@@ -82,6 +83,8 @@ class MapLevel {
   Structure structure_in(const Cell& block) const;
   /// The same for all cells of a block, x first.
   void read(const Cell& block, std::array<Known, kCells>& known) const;
+  /// The cells of a block that have this state at this level.
+  CellRows rows(const Cell& block, Space space) const;
 
   /// Frees the memory of blocks whose cells are all free by the same teller, and of blocks whose cells are all unknown
   /// and which are farther than `forget_m` from p. Their evidence is lost.

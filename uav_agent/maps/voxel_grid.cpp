@@ -131,7 +131,8 @@ bool VoxelGrid::mark(Id id, int face) { return set(id, static_cast<std::uint8_t>
 
 std::vector<VoxelGrid::Id> VoxelGrid::take_changed() { return std::exchange(changed_, {}); }
 
-void VoxelGrid::along(const Vector3d& a_W, const Vector3d& b_W, const std::function<bool(Id)>& visit) const {
+template <class Visit>
+void VoxelGrid::walk(const Vector3d& a_W, const Vector3d& b_W, Visit&& visit) const {
   const Vector3d a = X_GW_ * a_W / voxel_m_, b = X_GW_ * b_W / voxel_m_, d = b - a;
   // Clips the segment to the grid first, so that parts far outside cost no time.
   double enter = 0.0, leave = 1.0;
@@ -154,34 +155,29 @@ void VoxelGrid::along(const Vector3d& a_W, const Vector3d& b_W, const std::funct
     between[i] = d[i] == 0.0 ? std::numeric_limits<double>::infinity() : std::abs(1.0 / d[i]);
     next[i] = d[i] == 0.0 ? std::numeric_limits<double>::infinity() : (c[i] + (step[i] > 0 ? 1 : 0) - a[i]) / d[i];
   }
-  for (auto id = at(c); id; id = at(c)) {
-    if (!visit(*id)) return;
-    int axis = 0;
-    next.minCoeff(&axis);
-    if (next[axis] > leave) return;
+  const Cell stride = step.cwiseProduct(Cell(1, dims_.x(), dims_.x() * dims_.y()));
+  for (int id = static_cast<int>(*at(c)); visit(static_cast<Id>(id));) {
+    int axis = next[1] < next[0] ? 1 : 0;
+    if (next[2] < next[axis]) axis = 2;
     c[axis] += step[axis];
+    if (next[axis] > leave || c[axis] < 0 || c[axis] >= dims_[axis]) return;
+    id += stride[axis];
     next[axis] += between[axis];
   }
+}
+
+void VoxelGrid::along(const Vector3d& a_W, const Vector3d& b_W, const std::function<bool(Id)>& visit) const {
+  walk(a_W, b_W, visit);
 }
 
 bool VoxelGrid::sees(const Vector3d& a_W, const Vector3d& b_W) const {
   const auto from = at(a_W), to = at(b_W);
   bool clear = true;
-  along(a_W, b_W, [&](Id id) {
+  walk(a_W, b_W, [&](Id id) {
     clear = state(id) != VoxelState::occupied || id == from || id == to;
     return clear;
   });
   return clear;
-}
-
-void VoxelGrid::around(Id id, int steps, const std::function<void(Id)>& visit) const {
-  const Cell c = cell(id);
-  const Cell lo = (c.array() - steps).max(0), hi = (c.array() + steps).min(dims_.array() - 1);
-  for (int z = lo.z(); z <= hi.z(); ++z) {
-    for (int y = lo.y(); y <= hi.y(); ++y) {
-      for (int x = lo.x(); x <= hi.x(); ++x) visit(*at(Cell(x, y, z)));
-    }
-  }
 }
 
 std::pair<VoxelGrid::Id, VoxelGrid::Id> VoxelGrid::chunk_range(std::size_t chunk) const {

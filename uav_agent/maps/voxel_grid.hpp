@@ -75,7 +75,8 @@ class VoxelGrid {
   /// Whether no occupied cube lies on the segment; the cubes of both ends do not count.
   bool sees(const Vector3d& a_W, const Vector3d& b_W) const;
   /// Calls `visit` with all cubes within `steps` cubes of one, itself included.
-  void around(Id id, int steps, const std::function<void(Id)>& visit) const;
+  template <class Visit>
+  void around(Id id, int steps, Visit&& visit) const;
 
   std::size_t chunks() const { return chunk_revision_.size(); }
   /// The grid's revision() at the chunk's last change; 0: nothing is known in it.
@@ -92,6 +93,8 @@ class VoxelGrid {
   static constexpr std::uint8_t kStateBits = 3;  ///< format: mask of the two bits of a state
   static std::uint8_t mark_bit(int face) { return static_cast<std::uint8_t>(4U << face); }
   bool set(Id id, std::uint8_t voxel);
+  template <class Visit>
+  void walk(const Vector3d& a_W, const Vector3d& b_W, Visit&& visit) const;
   std::pair<Id, Id> chunk_range(std::size_t chunk) const;
 
   Isometry3d X_WG_, X_GW_;
@@ -104,6 +107,18 @@ class VoxelGrid {
   std::uint64_t revision_ = 0;
   std::vector<Id> changed_;
 };
+
+template <class Visit>
+void VoxelGrid::around(Id id, int steps, Visit&& visit) const {
+  const Cell c = cell(id);
+  const Cell lo = (c.array() - steps).max(0), hi = (c.array() + steps).min(dims_.array() - 1);
+  for (int z = lo.z(); z <= hi.z(); ++z) {
+    for (int y = lo.y(); y <= hi.y(); ++y) {
+      const Id first = static_cast<Id>((z * dims_.y() + y) * dims_.x());
+      for (int x = lo.x(); x <= hi.x(); ++x) visit(first + static_cast<Id>(x));
+    }
+  }
+}
 
 /// Makes every cube with its centre in a box occupied: for planners that cannot find out what is inside.
 void fill_boxes(const std::vector<OrientedBox>& boxes, VoxelGrid& grid);

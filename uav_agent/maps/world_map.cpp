@@ -19,19 +19,6 @@ constexpr std::size_t kTidyGrowth = 4, kTidyAfterBlocks = 256;
 constexpr std::size_t kUneven = 2;
 constexpr std::uint8_t kRowFree = std::numeric_limits<std::uint8_t>::max();  ///< a row of a chunk with all cubes free
 
-/// Sets the unknown cubes within a larger cube of a chunk.   @param lowest  the lowest smallest cube in it.
-/// @param edge  in smallest cubes.
-void fill_unknown(WorldMap::Chunk& known, const Eigen::Vector3i& lowest, int edge, const MapLevel::Known& about) {
-  for (int z = 0; z < edge; ++z) {
-    for (int y = 0; y < edge; ++y) {
-      const std::size_t first = MapLevel::place_of(lowest + Eigen::Vector3i(0, y, z));
-      for (std::size_t place = first; place < first + static_cast<std::size_t>(edge); ++place) {
-        if (known[place].space == Space::unknown) known[place] = about;
-      }
-    }
-  }
-}
-
 }  // namespace
 
 WorldMap::WorldMap(const Config& config) : config_(config), distances_(config.cell_m, config.distance_reach_m) {
@@ -192,13 +179,8 @@ void WorldMap::unprove_around(const Cube& cube) {
 }
 
 double WorldMap::structure_distance_m(const Vector3d& p_W) const {
-  return distances_.distance_m(cube_of(p_W), [this](const Cube& block, std::vector<Cube>& occupied) {
-    Chunk known;
-    levels_.front()->read(block, known);
-    for (std::size_t at = 0; at < known.size(); ++at) {
-      if (known[at].space == Space::occupied) occupied.push_back(block * kChunk + MapLevel::in_block(at));
-    }
-  });
+  const auto occupied_in = [this](const Cube& block) { return levels_.front()->rows(block, Space::occupied); };
+  return distances_.distance_m(cube_of(p_W), occupied_in);
 }
 
 void WorldMap::hear(const Cube& cube, int level, Space space, Teller teller) {
@@ -300,15 +282,7 @@ bool WorldMap::tube_free(const Vector3d& a_W, const Vector3d& b_W, double radius
 const WorldMap::ChunkNote* WorldMap::free_rows(const Cube& chunk) const {
   const ChunkNote* const note = chunks_.find(grid_key(chunk));
   if (note == nullptr || note->read_at == note->changed_at) return note;
-  Chunk known;
-  read(chunk, known);
-  for (std::size_t row = 0; row < note->free_rows.size(); ++row) {
-    std::uint8_t free = 0;
-    for (std::size_t x = 0; x < kChunk; ++x) {
-      if (known[row * kChunk + x].space == Space::free) free |= static_cast<std::uint8_t>(1U << x);
-    }
-    note->free_rows[row] = free;
-  }
+  note->free_rows = rows(chunk, Space::free);
   note->all_free = std::ranges::all_of(note->free_rows, [](auto row) { return row == kRowFree; });
   note->read_at = note->changed_at;
   return note;
@@ -350,7 +324,11 @@ bool WorldMap::ball_free_in(const Cube& chunk, const Ball& ball) const {
   return true;
 }
 
+/// Asks about the cube at the centre first: most places that are not free lie in unknown space.
 bool WorldMap::ball_free(const Vector3d& p_W, double radius_m, double lowest_m) const {
+  const Cube centre = cube_of(p_W);
+  const bool counts = radius_m > 0.0 && (centre.z() + 1) * config_.cell_m > lowest_m;
+  if (counts && !FreeCubes(*this)(centre)) return false;
   const Vector3d reach = Vector3d::Constant(radius_m);
   const Cube low = cube_of(p_W - reach), high = cube_of(p_W + reach);
   // One cube more on each side: for a cube that begins exactly at the radius, rounding may differ from ball_free_in().
@@ -365,23 +343,6 @@ void WorldMap::not_free_near(const Vector3d& p_W, double radius_m, double lowest
     if (asked && !is_free(cube)) cubes.push_back(cube);
     return true;
   });
-}
-
-void WorldMap::read(const Cube& chunk, Chunk& known) const {
-  levels_.front()->read(chunk, known);
-  Chunk larger;
-  for (int i = 1; i < levels(); ++i) {
-    if (std::ranges::all_of(known, [](const auto& cube) { return cube.space != Space::unknown; })) return;
-    const Cube block = shifted(chunk, i);
-    levels_[static_cast<std::size_t>(i)]->read(block, larger);
-    const int count = kChunk >> i;                           // cells of this level along an edge of the chunk
-    const Cube corner = (chunk - block * (1 << i)) * count;  // lowest cell of the chunk, within the block
-    for (int at = 0; at < count * count * count; ++at) {
-      const Cube cell(at % count, at / count % count, at / (count * count));
-      const MapLevel::Known& about = larger[MapLevel::place_of(corner + cell)];
-      if (about.space != Space::unknown) fill_unknown(known, cell * (1 << i), 1 << i, about);
-    }
-  }
 }
 
 WorldMap::Counts WorldMap::counts() const {

@@ -113,6 +113,8 @@ class WorldMap {
   using Chunk = std::array<MapLevel::Known, MapLevel::kCells>;  ///< its smallest cubes, x first
   /// known() of all cubes of a chunk.
   void read(const Eigen::Vector3i& chunk, Chunk& known) const;
+  /// The cubes of a chunk that known() tells to have this state.
+  CellRows rows(const Eigen::Vector3i& chunk, Space space) const;
   /// Number of the map's last change in a chunk, or in a region of 4^3 chunks: 1, 2, ...; 0: nothing was ever known.
   std::uint64_t changed_at(const Eigen::Vector3i& chunk) const;
   std::uint64_t region_changed_at(const Eigen::Vector3i& region) const;
@@ -157,9 +159,9 @@ class WorldMap {
   /// The map's note of a chunk: changed_at(), and a cache of its free smallest cubes, updated on demand.
   struct ChunkNote {
     std::uint64_t changed_at = 0, structure_changed_at = 0;
-    mutable std::uint64_t read_at = 0;                                ///< changed_at to which free_rows belongs
-    mutable std::array<std::uint8_t, kChunk* kChunk> free_rows = {};  ///< by z and y, y first: one bit for each x
-    mutable bool all_free = false;                                    ///< whether all bits of free_rows are set
+    mutable std::uint64_t read_at = 0;  ///< changed_at to which free_rows belongs
+    mutable CellRows free_rows = {};
+    mutable bool all_free = false;  ///< whether all bits of free_rows are set
   };
   struct RegionNote {
     std::uint64_t changed_at = 0;

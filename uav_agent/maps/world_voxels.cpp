@@ -1,6 +1,7 @@
 #include "uav_agent/maps/world_voxels.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace skein::agent {
 
@@ -47,23 +48,29 @@ void WorldVoxels::count(const WorldMap& map, const WorldMap::Cube& chunk, std::u
   if (counted.structure_changed_at == structure_changed_at && !counted.any_in_doubt) return;
   counted.structure_changed_at = structure_changed_at;
   counted.any_in_doubt = false;
-  WorldMap::Chunk known;
-  map.read(chunk, known);
-  for (std::size_t place = 0; place < known.size(); ++place) {
-    if (known[place].space != Space::occupied || counted.cubes[place]) continue;
-    const WorldMap::Cube cube = WorldMap::kChunk * chunk + MapLevel::in_block(place);
-    if (map.doubted(cube)) {
-      counted.any_in_doubt = true;
-      continue;
+  const CellRows occupied = map.rows(chunk, Space::occupied);
+  for (std::size_t row = 0; row < occupied.size(); ++row) {
+    for (unsigned left = occupied[row]; left != 0; left &= left - 1) {
+      const std::size_t place = row * kRowCells + static_cast<std::size_t>(std::countr_zero(left));
+      if (!counted.cubes[place]) count(map, chunk, place, counted, grid);
     }
-    counted.cubes.set(place);
-    const Vector3d p_W = map.middle_W(cube);
-    const auto id = grid.at(p_W);
-    if (!id) continue;
-    hits_[*id].sum_W += p_W;
-    ++hits_[*id].count;
-    grid.raise(*id, VoxelState::occupied);
   }
+}
+
+void WorldVoxels::count(const WorldMap& map, const WorldMap::Cube& chunk, std::size_t place, Counted& counted,
+                        VoxelGrid& grid) {
+  const WorldMap::Cube cube = WorldMap::kChunk * chunk + MapLevel::in_block(place);
+  if (map.doubted(cube)) {
+    counted.any_in_doubt = true;
+    return;
+  }
+  counted.cubes.set(place);
+  const Vector3d p_W = map.middle_W(cube);
+  const auto id = grid.at(p_W);
+  if (!id) return;
+  hits_[*id].sum_W += p_W;
+  ++hits_[*id].count;
+  grid.raise(*id, VoxelState::occupied);
 }
 
 void WorldVoxels::find_free(const WorldMap& map, VoxelGrid& grid) {

@@ -38,12 +38,6 @@ class WorldVoxels {
   int hits(VoxelGrid::Id id) const { return id < hits_.size() ? hits_[id].count : 0; }
 
  private:
-  void find_occupied(const WorldMap& map, VoxelGrid& grid);
-  /// Called for a changed chunk: marks the cubes of the grid in and around it for another look.
-  void note(const WorldMap& map, const WorldMap::Cube& chunk, const VoxelGrid& grid);
-  void count(const WorldMap& map, const WorldMap::Cube& chunk, std::uint64_t changed_at, VoxelGrid& grid);
-  void find_free(const WorldMap& map, VoxelGrid& grid);
-
   struct Hits {
     Vector3d sum_W = Vector3d::Zero();
     int count = 0;
@@ -54,6 +48,14 @@ class WorldVoxels {
     bool any_in_doubt = false;
     std::bitset<MapLevel::kCells> cubes = {};
   };
+
+  void find_occupied(const WorldMap& map, VoxelGrid& grid);
+  /// Called for a changed chunk: marks the cubes of the grid in and around it for another look.
+  void note(const WorldMap& map, const WorldMap::Cube& chunk, const VoxelGrid& grid);
+  void count(const WorldMap& map, const WorldMap::Cube& chunk, std::uint64_t changed_at, VoxelGrid& grid);
+  /// Counts an occupied cube of a chunk, unless it is in doubt.
+  void count(const WorldMap& map, const WorldMap::Cube& chunk, std::size_t place, Counted& counted, VoxelGrid& grid);
+  void find_free(const WorldMap& map, VoxelGrid& grid);
 
   const Config config_;
   std::vector<Hits> hits_;  ///< by cube of the grid

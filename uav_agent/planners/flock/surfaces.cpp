@@ -61,25 +61,33 @@ void FlockSurfaces::look_at_map(const WorldMap& map) {
   for (const Id id : grid_.take_changed()) {
     if (grid_.state(id) != VoxelState::occupied || listed_[id] != 0 || in_site_[id] == 0) continue;
     if (grid_.centre_W(id).z() + 0.5 * grid_.voxel_m() < kLowestM) continue;
-    occupied_.push_back(id);
-    tenths_.emplace_back();
-    listed_[id] = static_cast<std::uint32_t>(occupied_.size());
+    list(id);
   }
   faces_ = looked_ = 0;
-  for (const Id id : occupied_) {
+  for (const Cube& cube : occupied_) {
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
-      if (!exposed(id, face)) continue;
+      if (!exposed(cube, face)) continue;
       ++faces_;
-      if (looked_at(id, face)) ++looked_;
+      if (looked_at(cube.id, face)) ++looked_;
     }
   }
 }
 
-bool FlockSurfaces::exposed(Id id, int face) const {
-  const auto next = grid_.neighbour(id, face);
-  if (!next || grid_.state(*next) == VoxelState::occupied) return false;
-  if (blind_) return true;
-  return grid_.state(*next) == VoxelState::free || survey_.seen(grid_.centre_W(*next));
+void FlockSurfaces::list(Id id) {
+  Cube& cube = occupied_.emplace_back(Cube{.id = id});
+  for (std::size_t face = 0; face < cube.next.size(); ++face) {
+    const std::optional<Id> next = grid_.neighbour(id, static_cast<int>(face));
+    cube.next[face] = next.value_or(kOutside);
+    cube.survey_cell[face] = next ? survey_.cell_at(grid_.centre_W(*next)).value_or(kOutside) : kOutside;
+  }
+  listed_[id] = static_cast<std::uint32_t>(occupied_.size());
+}
+
+bool FlockSurfaces::exposed(const Cube& cube, int face) const {
+  const auto at = static_cast<std::size_t>(face);
+  const Id next = cube.next[at], survey_cell = cube.survey_cell[at];
+  if (next == kOutside || grid_.state(next) == VoxelState::occupied) return false;
+  return blind_ || grid_.state(next) == VoxelState::free || survey_cell == kOutside || survey_.seen(survey_cell);
 }
 
 Vector3d FlockSurfaces::surface_W(Id id) const { return voxels_.surface_W(id).value_or(grid_.centre_W(id)); }
@@ -100,7 +108,7 @@ void FlockSurfaces::detect(std::span<const DetectedPoint> detected, const Vector
 
 void FlockSurfaces::forget_pictures() {
   for (auto look = not_told_.rbegin(); look != not_told_.rend(); ++look) {
-    tenths_[listed_[look->id] - 1][static_cast<std::size_t>(look->face)] = look->tenths;
+    occupied_[listed_[look->id] - 1].tenths[static_cast<std::size_t>(look->face)] = look->tenths;
     const std::uint8_t shown = look->shown ? static_cast<std::uint8_t>(1U << look->face) : std::uint8_t{0};
     looked_here_[look->id] = static_cast<std::uint8_t>(looked_here_[look->id] & ~shown);
   }
@@ -156,20 +164,21 @@ void FlockSurfaces::look_at_faces(const Exposure& exposure) {
   const double range_m = kPictureRatio * sharp_m_;
   grid_.around(*here, static_cast<int>(std::ceil(range_m / grid_.voxel_m())), [&](Id id) {
     if (listed_[id] == 0) return;
+    Cube& cube = occupied_[listed_[id] - 1];
     const Vector3d surface = surface_W(id);
     const double off_m = (p_WC - surface).norm();
     const auto p_C = exposure.view(surface);
     if (!p_C) return;
     bool asked = false;
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
-      if (looked_at(id, face) || !exposed(id, face)) continue;
+      if (looked_at(id, face) || !exposed(cube, face)) continue;
       const Vector3d n_W = grid_.normal_W(face);
       const double ahead_m = n_W.dot(p_WC - surface);
       const auto score = ahead_m > 0.0 ? exposure.score(*p_C, n_W) : std::nullopt;
       if (!score) continue;
       const bool near = off_m <= kRangeRatio * sharp_m_ && ahead_m >= kFacing * off_m;
       const bool shown = near && score->score() >= config_.looked_q;
-      std::uint8_t& best = tenths_[listed_[id] - 1][static_cast<std::size_t>(face)];
+      std::uint8_t& best = cube.tenths[static_cast<std::size_t>(face)];
       const auto tenths = static_cast<std::uint8_t>(10.0 * score->score());  // format: tenths
       if (!shown && tenths <= best) continue;
       if (!asked && !sees(p_WC, surface)) return;
@@ -199,13 +208,13 @@ std::vector<FlockTarget> FlockSurfaces::targets(Tick now) const {
   };
   const double expected = density() * voxel_area();
   for (std::uint32_t place = 0; place < occupied_.size(); ++place) {
-    const Id id = occupied_[place];
+    const Cube& cube = occupied_[place];
     for (int face = 0; face < VoxelGrid::kFaces; ++face) {
-      if (looked_at(id, face) || !exposed(id, face)) continue;
+      if (looked_at(cube.id, face) || !exposed(cube, face)) continue;
       // Format: tenths.
-      const double have = 0.1 * tenths_[place][static_cast<std::size_t>(face)];
+      const double have = 0.1 * cube.tenths[static_cast<std::size_t>(face)];
       const auto number = place * VoxelGrid::kFaces + static_cast<std::uint32_t>(face);
-      add({surface_W(id), grid_.normal_W(face), expected, have, false, 2 * number});
+      add({surface_W(cube.id), grid_.normal_W(face), expected, have, false, 2 * number});
     }
   }
   const std::vector<FlockPoint>& points = points_.all();

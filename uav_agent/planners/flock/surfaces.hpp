@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
@@ -80,15 +81,24 @@ class FlockSurfaces {
 
  private:
   using Id = VoxelGrid::Id;
+  static constexpr Id kOutside = std::numeric_limits<Id>::max();  ///< format: for a cube that is not in a grid
+  /// An occupied cube in or near the boxes. Arrays are by face.
+  struct Cube {
+    Id id = 0;
+    std::array<Id, VoxelGrid::kFaces> next = {};              ///< the cube on the other side; or kOutside
+    std::array<Id, VoxelGrid::kFaces> survey_cell = {};       ///< the survey's cell with the middle of `next`
+    std::array<std::uint8_t, VoxelGrid::kFaces> tenths = {};  ///< tenths of the quality of the best picture so far
+  };
   /// How a picture changed a face.
   struct Look {
     Id id = 0;
     int face = 0;
-    std::uint8_t tenths = 0;  ///< tenths_ of the face before the picture
+    std::uint8_t tenths = 0;  ///< Cube::tenths of the face before the picture
     bool shown = false;       ///< the picture was good enough: the UAV has looked at the face
   };
   double voxel_area() const { return grid_.voxel_m() * grid_.voxel_m(); }
-  bool exposed(Id id, int face) const;
+  void list(Id id);
+  bool exposed(const Cube& cube, int face) const;
   bool looked_at(Id id, int face) const { return grid_.marked(id, face) || (looked_here_[id] >> face & 1U) != 0; }
   void look_at_faces(const Exposure& exposure);
   Vector3d surface_W(Id id) const;
@@ -102,12 +112,10 @@ class FlockSurfaces {
   WorldVoxels voxels_;
   FlockSurvey survey_;
   FlockPoints points_;
-  std::vector<Id> occupied_;               ///< occupied cubes in or near the boxes, in the order of discovery
-  std::vector<std::uint32_t> listed_;      ///< by cube: its place in occupied_, from 1; 0: it is not there
-  std::vector<std::uint8_t> in_site_;      ///< by cube: it is in or near a box
-  std::vector<std::uint8_t> looked_here_;  ///< by cube: a bit for each face that this UAV has looked at
-  /// By place in occupied_ and face: tenths of the quality that the face had in the best picture so far.
-  std::vector<std::array<std::uint8_t, VoxelGrid::kFaces>> tenths_;
+  std::vector<Cube> occupied_;              ///< in the order of discovery
+  std::vector<std::uint32_t> listed_;       ///< by cube: its place in occupied_, from 1; 0: it is not there
+  std::vector<std::uint8_t> in_site_;       ///< by cube: it is in or near a box
+  std::vector<std::uint8_t> looked_here_;   ///< by cube: a bit for each face that this UAV has looked at
   std::vector<Look> not_told_;              ///< since the last detection, in order
   std::map<std::uint32_t, Tick> left_out_;  ///< by FlockTarget::id: until when
   std::size_t faces_ = 0, looked_ = 0;      ///< number of exposed faces; of those that a camera looked at

@@ -58,8 +58,8 @@ void FlockSurvey::visited(const Vector3d& p_W, double radius_m) {
 }
 
 bool FlockSurvey::seen(const Vector3d& p_W) const {
-  const auto id = cells_.at(p_W);
-  return !id || looks_[*id] > 0;
+  const auto cell = cell_at(p_W);
+  return !cell || seen(*cell);
 }
 
 std::vector<FlockGap> FlockSurvey::gaps() const {

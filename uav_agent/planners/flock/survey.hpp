@@ -5,6 +5,7 @@
 // Frame W.   Units: metres.   Threads: one.   Effort of look(): cells within survey_m.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "uav_agent/maps/voxel_grid.hpp"
@@ -33,7 +34,10 @@ class FlockSurvey {
   /// not surveyed after two such visits: a corner of a cell may be in sight although its middle is not.
   void visited(const Vector3d& p_W, double radius_m);
 
-  /// Whether an explorer ever had the place in sight; true outside the survey's cells.
+  /// The survey's cell with this place; nullopt outside the survey.
+  std::optional<VoxelGrid::Id> cell_at(const Vector3d& p_W) const { return cells_.at(p_W); }
+  /// Whether an explorer ever had the cell, or the place, in sight; true outside the survey's cells.
+  bool seen(VoxelGrid::Id cell) const { return looks_[cell] > 0; }
   bool seen(const Vector3d& p_W) const;
   /// Cells in and near boxes that were not in sight long enough and have not been given up, in groups.
   std::vector<FlockGap> gaps() const;

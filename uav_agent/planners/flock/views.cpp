@@ -46,9 +46,16 @@ Direction direction_of(const Vector3d& way) {
   return {std::atan2(way.y(), way.x()), std::atan2(-way.z(), way.head<2>().norm())};
 }
 
+/// Rounds halves away from zero, as round() does, but without the function calls.
+Eigen::Vector3i rounded(const Vector3d& v) {
+  const Eigen::Vector3i whole = v.cast<int>();
+  const Vector3d rest = v - whole.cast<double>();
+  return whole.array() + (rest.array() >= 0.5).cast<int>() - (rest.array() <= -0.5).cast<int>();
+}
+
 /// Rounds a unit vector to one of 26 directions, as a cell of 3 x 3 x 3.
 Eigen::Vector3i direction_cell(const Vector3d& direction_W) {
-  return (kNearAxis * direction_W).array().round().cast<int>() + 1;
+  return rounded(kNearAxis * direction_W) + Eigen::Vector3i::Ones();
 }
 
 bool proved(const FreeSpace& space, const Vector3d& p_W) {
@@ -117,15 +124,40 @@ std::vector<FlockTarget> FlockViews::voters(const FlockTargets& targets) const {
   return voters;
 }
 
+namespace {
+
+/// A direction from a target to a camera.
+struct Side {
+  Vector3d out_W = Vector3d::UnitX();
+  Eigen::Vector3i cell = Eigen::Vector3i::Zero();  ///< direction_cell()
+  bool in_reach = true;                            ///< the gimbal can point the camera back along it
+};
+
+constexpr std::size_t kSides = 5;  ///< geometry: straight before the target, and tilted to four sides
+
+/// @param steepest  sine of the camera's greatest pitch.
+std::array<Side, kSides> sides_of(const Vector3d& n_W, double steepest) {
+  const Vector3d u = n_W.unitOrthogonal(), v = n_W.cross(u);
+  const double tilt = std::tan(kTilt);
+  const auto tilted = [&](const Vector3d& aside_W) { return Vector3d((n_W + tilt * aside_W).normalized()); };
+  std::array<Side, kSides> sides;
+  const std::array<Vector3d, kSides> out_W = {n_W, tilted(u), tilted(-u), tilted(v), tilted(-v)};
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    sides[i] = {out_W[i], direction_cell(out_W[i]), !(std::abs(out_W[i].z()) > steepest)};
+  }
+  return sides;
+}
+
+}  // namespace
+
 std::vector<FlockViews::Vote> FlockViews::votes(const FlockTargets& targets) const {
   const double steepest = std::sin(agent_.vehicle.gimbal.pitch_limit_deg * kRadPerDeg);
   std::vector<Vote> votes;
   BlockTable<std::uint32_t> number_of;  // by place and direction: index of the vote + 1
-  const auto vote = [&](const FlockTarget& target, const Vector3d& out_W, double distance_m, double worth) {
-    const Vector3d p_W = target.p_W + distance_m * out_W;
-    if (p_W.z() < config_.flight.floor_m || std::abs(out_W.z()) > steepest) return;
-    const Eigen::Vector3i place = (p_W / kPlaceM).array().round().cast<int>();
-    std::uint32_t& number = number_of[grid_key(kDirections * place + direction_cell(out_W))];
+  const auto vote = [&](const FlockTarget& target, const Side& side, double distance_m, double worth) {
+    const Vector3d p_W = target.p_W + distance_m * side.out_W;
+    if (p_W.z() < config_.flight.floor_m) return;
+    std::uint32_t& number = number_of[grid_key(kDirections * rounded(p_W / kPlaceM) + side.cell)];
     if (number == 0) {
       votes.emplace_back();
       number = static_cast<std::uint32_t>(votes.size());
@@ -135,14 +167,14 @@ std::vector<FlockViews::Vote> FlockViews::votes(const FlockTargets& targets) con
     votes_here.aim_sum_W += worth * target.p_W;
     votes_here.weight += worth;
   };
-  const double tilt = std::tan(kTilt), cosine = std::cos(kTilt);
+  const double cosine = std::cos(kTilt);
   for (const FlockTarget& target : voters(targets)) {
-    const Vector3d n = target.n_W, u = n.unitOrthogonal(), v = n.cross(u);
+    const std::array<Side, kSides> sides = sides_of(target.n_W, steepest);
     for (const double ratio : {config_.wide_ratio, config_.far_ratio, config_.near_ratio}) {
       const double far_m = ratio * sharp_m_;
-      vote(target, n, far_m, target.open());
-      for (const Vector3d& aside : {u, Vector3d(-u), v, Vector3d(-v)}) {
-        vote(target, (n + tilt * aside).normalized(), cosine * far_m, cosine * target.open());
+      for (std::size_t i = 0; i < sides.size(); ++i) {
+        const double part = i == 0 ? 1.0 : cosine;
+        if (sides[i].in_reach) vote(target, sides[i], part * far_m, part * target.open());
       }
     }
   }
