@@ -12,7 +12,8 @@ namespace {
 /// Length of the encapsulation header, which precedes the content of a serialised message.
 constexpr std::size_t kEncapsulationBytes = 4;
 
-/// A copy with one or three flipped bits: an odd number, so that it differs. nullptr if the message has no content.
+/// A copy in which one or three random bits are flipped. With an odd number of flips, the copy always differs from the
+/// original, even if two of them hit the same bit. nullptr if the message has no content.
 Payload with_flipped_bits(const std::vector<std::uint8_t>& bytes, RandomStream& random) {
   if (bytes.size() <= kEncapsulationBytes) return nullptr;
   auto damaged = std::make_shared<std::vector<std::uint8_t>>(bytes);
@@ -43,7 +44,7 @@ LinkStages::LinkStages(const Scenario& scenario, const FaultPlan& faults, std::u
 }
 
 void LinkStages::add_effect(const LinkEffect& effect, const std::string& name, std::optional<std::size_t> fault) {
-  if (!effect.acts_on_messages()) return;  // the server closes links that are out of range
+  if (!effect.acts_on_messages()) return;  // only a `range_m`, which the server applies: it closes links beyond it
   for (const Node from : scenario_.nodes()) {
     for (const Node to : scenario_.nodes()) {
       const std::string &source = scenario_.node_name(from), &target = scenario_.node_name(to);
@@ -156,7 +157,8 @@ bool LinkStages::queue(Stage& stage, std::uint64_t k, double size_bytes, double&
   return true;
 }
 
-// The chain begins in the good state in the effect's first step. A restarted router recomputes it from there.
+// Advances the two-state Markov chain of the bursts to step k. It begins in the good state in the effect's first step,
+// and a restarted router recomputes it from there.
 bool LinkStages::in_burst(Stage& stage, std::uint64_t k) const {
   const BurstLoss& burst = *stage.effect.burst_loss;
   while (stage.burst_step < k) {

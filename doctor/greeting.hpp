@@ -21,7 +21,7 @@ struct Greeting {
   int base = 0;                            ///< first domain of the sender's fleet (--domain)
   std::string address{};                   ///< sender's address in that domain's network
   std::vector<std::string> vendors{};      ///< DDS vendors that the sender uses in that domain
-  std::string by{};                        ///< sample: the vendor that wrote it; empty: a datagram
+  std::string by{};                        ///< DDS vendor that wrote this sample; empty in a datagram
   std::size_t size = 0;                    ///< requested size of a large datagram [bytes]; else 0
   double sent_s = 0.0;                     ///< sender's time of day, since 1970 [s]
   std::vector<std::uint32_t> heard_udp{};  ///< ids of the doctors heard in that domain by UDP

@@ -20,9 +20,9 @@ struct CgroupFacts {
 };
 
 struct MachineFacts {
-  std::string container{};  ///< evidence that this is a container; empty: it is none
+  std::string container{};  ///< evidence that this process runs in a container; empty: none found
   CgroupFacts cgroup;
-  Limit open_files{}, most_open_files{};  ///< of a process: the limit; what it may be raised to
+  Limit open_files{}, most_open_files{};  ///< limit of a process; maximum to which the process may raise it
   Limit processes{}, kernel_processes{};  ///< of this user; of the whole host; each thread counts
   Limit receive_buffer{}, send_buffer{};  ///< [bytes]; maximum that a socket may request
   Limit memory{};                         ///< [bytes] available

@@ -25,7 +25,8 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGreetAgain{250}, kLookAgain{20}, kAskAgain{200}, kLeaving{2000};
-/// Number of greetings that a host still sends, with --until-heard, once all hear each other: they inform the others.
+/// With --until-heard: number of greetings that a host still sends once all hosts hear each other. From these, the other
+/// hosts learn that this host hears them.
 constexpr int kFarewells = 4;
 constexpr std::array<std::uint8_t, 4> kEncapsulation = {0, 1, 0, 0};  // CDR_LE
 
@@ -61,8 +62,10 @@ std::vector<std::string> chosen(const NetVisit& visit) {
     if (wanted && !visit.network.of(name).host_only()) names.push_back(name);
   }
   if (names.empty()) {
-    throw InputError(std::string("nothing of ") + (visit.only.empty() ? "the fleet" : "these domains") +
-                     " leaves this host; say with --network how the others are reached");
+    throw InputError(std::string("by its network settings, ") +
+                     (visit.only.empty() ? "no domain of the fleet" : "none of these domains") +
+                     " reaches other hosts, so there is nothing to check; say with --network how the hosts reach each "
+                     "other");
   }
   return names;
 }

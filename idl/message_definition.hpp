@@ -20,8 +20,8 @@ struct MessageDefinition {
 const MessageDefinition& message_definition(const std::string& wire_type);
 
 /// The fields of each struct of an IDL file, by the struct's name on the wire: lines such as "package/Type name" or
-/// "float64[36] name". It reads what the IDL files here use: modules, final structs, comments, basic types, strings,
-/// arrays, sequences. @throws std::invalid_argument, with the line, for anything else.
+/// "float64[36] name". This parser knows only the part of IDL that Skein's files use: modules, final structs, comments,
+/// basic types, strings, arrays, sequences. @throws std::invalid_argument, with the line, for anything else.
 std::map<std::string, std::string> ros_fields(std::string_view idl);
 
 }  // namespace skein

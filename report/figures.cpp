@@ -66,7 +66,7 @@ class Mesh {
     return name == kStationNode ? std::optional(uavs_) : run_.uav_of(name);
   }
 
-  std::size_t uavs_;  ///< also the station's node
+  std::size_t uavs_;  ///< number of UAVs, which is also the index of the station's node
   const results::RunRecord& run_;
   std::vector<std::vector<bool>> hears_;  ///< by receiver and sender
 };
@@ -83,7 +83,8 @@ void add_links(const results::RunRecord& run, std::vector<Lane>& lanes) {
   if (!run.events.empty()) mesh.account(since_s, run.end_s, lanes);
 }
 
-/// Adds to the lanes when programs joined and left, and the number of captures that wait for acknowledgement.
+/// Adds to each UAV's lane the spans in which its program took part in the run, and the number of captures that waited
+/// for acknowledgement.
 void add_members(const results::RunRecord& run, std::vector<Lane>& lanes) {
   std::vector<std::optional<double>> joined(run.uavs.size());
   std::vector<int> waiting(run.uavs.size(), 0);

@@ -39,8 +39,9 @@ std::array<Vector3d, 8> corners_of(const Vector3d& center, const Vector3d& size,
 /// The boxes, points and tracks of a run, without its station and its collisions.
 FlightPicture shape_of(const results::RunRecord& run);
 
-/// The same of a results folder, without causes of losses; empty without result.json. Another missing file contributes
-/// nothing; of a damaged table, the rows before the damage count.
+/// Reads a whole picture from a results folder, without causes of losses. The picture is empty if result.json is
+/// missing. If another file is missing, the picture lacks its content; from a damaged table, it has the rows before the
+/// damage.
 FlightPicture read_picture(const std::filesystem::path& dir);
 
 /// Below this score a point is not detected.
@@ -65,7 +66,7 @@ class PictureView {
   double height() const { return height_; }
   /// Where a point is drawn, in the drawing's units.
   Eigen::Vector2d at(const Vector3d& p_W) const;
-  const Vector3d& low() const { return low_; }  ///< lowest corner of the extent; the drawing has the ground at its z
+  const Vector3d& low() const { return low_; }  ///< lowest corner of the extent; the ground is drawn at the z of it
   const Vector3d& high() const { return high_; }
   double grid_m() const { return grid_m_; }  ///< spacing of the grid lines
 
@@ -91,8 +92,8 @@ std::string picture_svg(const FlightPicture& picture, const PictureView& view, c
 /// Legend of a picture's drawings: the colours of its tracks and of scores, as an HTML list.
 std::string picture_legend(const FlightPicture& picture);
 
-/// Leaves out points of a polyline, so that none of them is farther than `tolerance` from the result (Douglas and
-/// Peucker 1973). The ends stay.
+/// Simplifies a polyline: removes points that are at most `tolerance` away from the remaining line (Douglas and Peucker
+/// 1973). Both ends stay.
 std::vector<Eigen::Vector2d> simplified(const std::vector<Eigen::Vector2d>& line, double tolerance);
 
 }  // namespace skein::report

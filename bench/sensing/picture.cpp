@@ -147,10 +147,10 @@ std::string legend() {
   entry(box("free"), "free", 64.0);
   entry(box("occupied"), "occupied", 94.0);
   entry(box("unknown"), "unknown", 92.0);
-  entry(R"(<path class="cut" d="M2 10L7 4M12 9h0"/>)", "what stands there, cut by the plane", 262.0);
+  entry(R"(<path class="cut" d="M2 10L7 4M12 9h0"/>)", "surfaces, cut by the plane", 262.0);
   entry(
       R"(<path class="route" d="M0 7h10"/><path class="route" d="M0 7h10"/><circle class="uav" cx="11" cy="7" r="4"/>)",
-      "the UAV's way up to then", 0.0);
+      "the UAV's path so far", 0.0);
   return svg;
 }
 

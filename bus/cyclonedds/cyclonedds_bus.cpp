@@ -33,7 +33,8 @@ using QosPtr = std::unique_ptr<dds_qos_t, DeleteQos>;
 /// The QoS that writers and readers of a topic have in common.
 QosPtr common_qos(const Qos& qos) {
   QosPtr dds(dds_create_qos());
-  // A writer blocks only above the high watermark, which is set out of reach (domain.cpp).
+  // The 10 ms are how long a writer may block. It blocks only above Cyclone's high watermark, which no run reaches: it
+  // is set to 2 GB (domain.cpp).
   dds_qset_reliability(dds.get(), qos.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(10));
   dds_qset_durability(dds.get(), qos.latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_ignorelocal(dds.get(), DDS_IGNORELOCAL_PARTICIPANT);
@@ -59,7 +60,7 @@ QosPtr reader_qos(const Qos& qos) {
   return dds;
 }
 
-/// A topic of a raw type. Needed only until an endpoint is created, which then keeps Cyclone's topic alive.
+/// A topic of a raw type. This object is needed only to create an endpoint: the endpoint keeps Cyclone's topic alive.
 class RawTopic {
  public:
   RawTopic(dds_entity_t participant, const TopicSpec& topic) : type_(make_raw_sertype(topic.type)) {
@@ -147,7 +148,8 @@ class CycloneReader : public Reader {
     dds_listener_t* listener = dds_create_listener(this);
     dds_lset_data_available(listener,
                             [](dds_entity_t reader, void* self) { static_cast<CycloneReader*>(self)->take(reader); });
-    // Looks up the source at the match: a writer may leave right after its last sample, and then it is too late.
+    // The reader looks up a writer's participant as soon as the two match: once the writer has left, Cyclone no longer
+    // knows the participant, and a writer may leave right after its last sample.
     dds_lset_subscription_matched(
         listener, [](dds_entity_t reader, const dds_subscription_matched_status_t status, void* self) {
           if (status.current_count_change > 0)
@@ -174,7 +176,8 @@ class CycloneReader : public Reader {
       const dds_return_t count = dds_takecdr(reader, samples.data(), samples.size(), infos.data(), DDS_ANY_STATE);
       if (count <= 0) return;
       for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        // A sample without data reports that a writer has left; it has no type, either.
+        // Cyclone reports with a sample without data that a writer has left. Such a sample also lacks the raw type, so
+        // payload_of() could not read it.
         if (infos[i].valid_data) {
           const auto payload = payload_of(samples[i]);
           on_sample_({{payload.begin(), payload.end()}, source_of(reader, infos[i].publication_handle)});

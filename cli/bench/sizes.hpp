@@ -16,7 +16,7 @@ struct BenchSize {
 
 struct BenchSizes {
   std::vector<BenchSize> fleets;  ///< in the order in which they were asked for
-  std::vector<std::string> said;  ///< a line for each size that is not measured in all ways, and why
+  std::vector<std::string> said;  ///< a line for each size that is not measured, or not over DDS, with the reason
 };
 
 /// @param left  memory that programs can still get on this host [bytes]; nullopt: unknown, then all sizes fit.

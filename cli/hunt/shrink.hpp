@@ -23,24 +23,26 @@ struct Shrunk {
 
 /// A simpler version of a trial.
 struct Proposal {
-  /// Name of the simplification. If the property does not fail then, shrink() does not try the simplification again
-  /// until the number of faults or UAVs changes.
+  /// Name of the simplification. If the property holds in the simplified trial, shrink() tries a simplification of this
+  /// name again only after the number of faults or UAVs has changed.
   std::string what;
   Trial trial;
 };
 
-/// The simplifications of a trial, most effective first: a shorter mission, which makes all further flights cheaper;
-/// fewer faults, by halves before one by one; fewer UAVs, no draws from the seed, fewer conditions, a simpler scene, a
-/// planner without parameters; faults that do not wait, are shorter, weaker, or have rounder times.
-/// @param after_s  time that the mission needs after its last fault [s]: without it, a property that must hold then
-///   would always fail. nullopt: the mission may end once the failure has been seen.
+/// The simplifications of a trial, most effective first:
+/// - a shorter mission, which makes all further flights cheaper;
+/// - fewer faults: first without half of them, then without single ones;
+/// - fewer UAVs, no draws from the seed, fewer conditions, a simpler scene, a planner without parameters;
+/// - for each fault: no condition to wait for, a shorter duration, a weaker effect, rounder times.
+/// @param after_s  time that the mission must go on after its last fault [s]: some properties judge the time after the
+///   faults, and would fail in any shorter mission. nullopt: the mission may end once the failure has been seen.
 std::vector<Proposal> simpler(const Trial& trial, const TrialOutcome& outcome, const std::string& property,
                               const Scenario& scenario, std::optional<double> after_s);
 
 struct ShrinkOptions {
   std::optional<double> after_s = 0.0;  ///< see simpler()
   std::size_t at_once = 1;              ///< number of trials in one call of `fly`
-  std::size_t most = 60;                ///< flights; in a batch, only those up to the first success count
+  std::size_t most = 60;                ///< limit of Shrunk::flights; those of a batch after its first success are free
 };
 
 /// Minimises a trial. @param outcome  of the trial, in which `property` fails. @param scenario  with its whole fleet.

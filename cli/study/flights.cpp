@@ -126,7 +126,7 @@ class StudyRun {
   const Console console_;
   StudyOutcomes outcomes_;
   std::size_t over_ = 0;
-  double flown_s_ = 0.0, left_s_ = 0.0;  ///< mission time, in this call
+  double flown_s_ = 0.0, left_s_ = 0.0;  ///< mission time of this call's flights: of the finished ones; of the others
   const Clock::time_point started_ = Clock::now();
 };
 

@@ -24,7 +24,7 @@ namespace skein {
 struct Partition {
   std::vector<std::vector<std::string>> groups;
 };
-/// A UAV's radio is dead: it neither sends nor receives messages, key frames and odometry of neighbours.
+/// A UAV's radio is dead: it neither sends nor receives anything, be it messages, key frames or odometry.
 struct Blackout {
   std::string uav;
 };
@@ -134,14 +134,15 @@ struct Fault {
   double at_s = 0.0;              ///< begin, simulated time since the start of the run; while `waits`: earliest begin
   std::optional<double> until_s;  ///< end; none: the end of the run
   FaultAction action;
-  std::optional<FaultCondition> when = {};  ///< the fault begins with the exchange after the first in which this holds
+  std::optional<FaultCondition> when = {};  ///< the fault begins one exchange after this condition first holds
   std::optional<double> for_s = {};         ///< only with `when`: duration, unless `until_s` ends the fault earlier
   bool waits = false;                       ///< true: the condition has not held yet, and the fault is not active
 
-  /// To be called when the condition holds: the fault begins with the exchange at this tick, unless that is after its
-  /// end.
+  /// The caller has found that the condition holds: the fault begins with the exchange at this tick, and never becomes
+  /// active if `until_s` is earlier.
   void set_off(Tick tick);
-  /// Whether the fault waits, and could begin with an exchange at this tick: then its condition must be evaluated.
+  /// Whether the fault still waits, and its times allow it to begin with the exchange at this tick. Only then does the
+  /// caller need to evaluate the condition.
   bool may_begin(Tick tick) const;
   /// Whether the fault is active in the exchange at this tick: from the first exchange at or after `at_s` to the last
   /// one before `until_s`.

@@ -16,7 +16,7 @@ TEST(Aiming, ThePointComesIntoTheMiddleOfTheImage) {
     state.p_WB = {1.0 * i, -0.5 * i, 10.0};
     const double body_yaw = 0.37 * i;
     state.q_WB = Quaterniond(rotation_z(body_yaw));
-    // In front of the camera: to the side by less than the gimbal turns, and not too steep.
+    // Directions that are within the gimbal's limits of yaw and pitch.
     const double yaw = -1.4 + 0.028 * i, pitch = 1.2 * std::sin(0.9 * i);
     const Vector3d axis = rotation_z(body_yaw + yaw) * rotation_y(pitch) * Vector3d::UnitX();
     const Vector3d p_W = state.X_WB() * vehicle.camera.p_BC + 7.0 * axis;
@@ -32,7 +32,7 @@ TEST(Aiming, ThePointComesIntoTheMiddleOfTheImage) {
   }
 }
 
-TEST(Aiming, LimitsOfTheGimbalHold) {
+TEST(Aiming, TheCommandStaysWithinTheLimitsOfTheGimbal) {
   const VehicleConfig vehicle;
   const GimbalCommand down = aim_at({0.2, 0.0, -50.0}, RigidBodyState(), vehicle);
   EXPECT_NEAR(down.pitch, vehicle.gimbal.pitch_limit_deg * kRadPerDeg, 1e-9);
@@ -40,7 +40,7 @@ TEST(Aiming, LimitsOfTheGimbalHold) {
   EXPECT_NEAR(behind.yaw, vehicle.gimbal.yaw_limit_deg * kRadPerDeg, 1e-9);
 }
 
-TEST(Aiming, ABodyFacesAnUprightFaceAndAnyYawDoesForOthers) {
+TEST(Aiming, TheYawTurnsTheUavTowardsASteepFaceAndIsUndefinedForAFlatOne) {
   for (double heading = -3.0; heading < 3.1; heading += 0.25) {
     for (const double rise : {-0.9, -0.4, 0.0, 0.4, 0.9}) {
       const Vector3d out_W = Vector3d(std::cos(heading), std::sin(heading), rise).normalized();
