@@ -25,8 +25,8 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGreetAgain{250}, kLookAgain{20}, kAskAgain{200}, kLeaving{2000};
-/// With --until-heard: number of greetings that a host still sends once all hosts hear each other. From these, the other
-/// hosts learn that this host hears them.
+/// With --until-heard: number of greetings that a host still sends once all hosts hear each other. These greetings tell
+/// the other hosts that this host hears them.
 constexpr int kFarewells = 4;
 constexpr std::array<std::uint8_t, 4> kEncapsulation = {0, 1, 0, 0};  // CDR_LE
 
