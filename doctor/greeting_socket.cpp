@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kLargestDatagram = 65536;
 constexpr std::size_t kControlBytes = 512;
+constexpr int kMostAtOnce = 1000;  ///< datagrams read before the program looks at the time again
 
 in_addr address_of(const std::string& text) {
   in_addr address{};
@@ -107,7 +108,8 @@ std::string GreetingSocket::send(const std::string& from, const std::string& to,
 }
 
 void GreetingSocket::take(const OnDatagram& on_datagram, const OnRefused& on_refused) {
-  for (bool more = true; more;) {
+  bool more = true;
+  for (int turn = 0; more && turn < kMostAtOnce; ++turn) {
     more = false;
     Message arrived(buffer_.data(), buffer_.size());
     const ssize_t size = ::recvmsg(fd_, &arrived.header, 0);

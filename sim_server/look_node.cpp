@@ -91,7 +91,8 @@ void LookNode::tell(Clock::time_point now) {
 void LookNode::tell_points(Clock::time_point now) {
   for (auto& [uav, lidar] : lidars_) {
     if (lidar.points.empty()) continue;
-    const view::PointsStep step{seconds(lidar.tick), lidar.points.take(budget_.points / lidars_.size())};
+    const std::size_t most = std::max<std::size_t>(1, budget_.points / lidars_.size());
+    const view::PointsStep step{seconds(lidar.tick), lidar.points.take(most)};
     write(view::lidar_text(scenario_.fleet[uav].name, std::span(&step, 1)));
     points_due_ = now + view::LookBudget::kPointsPeriod;
   }

@@ -7,8 +7,8 @@
 namespace skein::view {
 namespace {
 
-constexpr std::size_t kLongestLook = 1000, kLongestCloudUav = 64;  // [bytes]
-constexpr std::size_t kMostNames = 32;
+constexpr std::size_t kLongestCloudUav = 64;  // [bytes]; in JSON, a name takes 3 more
+static_assert(kLongestLook > kMostUavs * (kLongestCloudUav + 3));
 
 /// @returns whether `value` may be a UAV's name; if so, `name` gets it.
 bool take_name(const Json& value, std::string& name) {
@@ -18,7 +18,7 @@ bool take_name(const Json& value, std::string& name) {
 }
 
 bool take_names(const Json& value, std::vector<std::string>& names) {
-  if (!value.is_array() || value.size() > kMostNames) return false;
+  if (!value.is_array() || value.size() > kMostUavs) return false;
   for (const Json& one : value) {
     if (!take_name(one, names.emplace_back())) return false;
   }

@@ -10,10 +10,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scenario/scenario_reader.hpp"
+
 namespace skein::view {
 
 /// A request expires after this wall time unless it is renewed. Pages renew it three times as often.
 inline constexpr std::chrono::seconds kLookLease{6};
+/// An order may have the names of a whole fleet [bytes].
+inline constexpr std::size_t kLongestLook = kMostUavs * 68;
 
 /// Limits of the requested data. Together with what every browser gets, it is less than 300 kB/s for up to 20 UAVs.
 struct LookBudget {

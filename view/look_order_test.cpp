@@ -28,10 +28,11 @@ TEST(LookOrders, InvalidOrdersAreRefused) {
     EXPECT_EQ(read_look_order(text), std::nullopt) << text;
     EXPECT_FALSE(read_order(text).has_value()) << text;
   }
-  EXPECT_TRUE(read_look_order(text_of(LookOrder{std::vector<std::string>(32, "a"), ""})));
-  EXPECT_FALSE(read_look_order(text_of(LookOrder{std::vector<std::string>(33, "a"), ""}))) << "too many names";
+  EXPECT_TRUE(read_look_order(text_of(LookOrder{std::vector<std::string>(kMostUavs, std::string(64, 'a')), ""})));
+  EXPECT_FALSE(read_look_order(text_of(LookOrder{std::vector<std::string>(kMostUavs + 1, "a"), ""})))
+      << "too many names";
   EXPECT_FALSE(read_look_order(text_of(LookOrder{{}, std::string(65, 'a')}))) << "longer than any name";
-  EXPECT_FALSE(read_look_order(R"({"do":"look")" + std::string(1000, ' ') + "}")) << "longer than any order";
+  EXPECT_FALSE(read_look_order(R"({"do":"look")" + std::string(kLongestLook, ' ') + "}")) << "longer than any order";
 }
 
 // The budget is 300 kB a second. At 8 times real time, each viewer gets about 12 kB of it for each UAV, in addition to

@@ -31,7 +31,7 @@ using Response = http::response<http::string_body>;
 using WebSocket = websocket::stream<beast::tcp_stream>;
 using namespace std::chrono_literals;
 
-constexpr std::size_t kMostHeader = 8 << 10, kMostBody = 1 << 10, kMostMessage = 1 << 10;
+constexpr std::size_t kMostHeader = 8 << 10, kMostBody = 1 << 10, kMostMessage = kLongestLook;
 constexpr std::size_t kBatch = 128 << 10;
 /// The operating system's send buffer for a browser; it is small, because states that wait in it become outdated.
 constexpr int kSendBuffer = 128 << 10;

@@ -158,7 +158,7 @@ TEST_F(ServerTest, ClosesConnectionsOfFollowersThatSendAnythingElse) {
   unmasked[1] = static_cast<char>(unmasked[1] & 0x7f);
   unmasked.erase(2, 4);
   for (const std::string& bytes :
-       {frame("nonsense"), frame(R"({"do":"kill"})"), frame(R"({"do":"step"})", 0x82), frame(std::string(2000, 'x')),
+       {frame("nonsense"), frame(R"({"do":"kill"})"), frame(R"({"do":"step"})", 0x82), frame(std::string(100'000, 'x')),
         unmasked, frame("x", 0x83), frame("x", 0xf1), frame(std::string(126, 'x'), 0x89),
         std::string("\x81\xff\xff", 3) + std::string(12, '\xff'), frame("\xff\xfe")}) {
     const auto wire = follower();

@@ -11,6 +11,7 @@
 #include "core/faults/fault_check.hpp"
 #include "core/overloaded.hpp"
 #include "core/scenario/conditions.hpp"
+#include "core/text/words.hpp"
 
 namespace skein::cli {
 namespace {
@@ -48,7 +49,7 @@ bool names_any(const Fault& fault, const std::set<std::string>& of) {
              fault.action);
   const std::string condition = fault.waits ? fault.when->text : "";
   return std::ranges::any_of(
-      of, [&](const std::string& name) { return names.contains(name) || condition.find(name) != std::string::npos; });
+      of, [&](const std::string& name) { return names.contains(name) || has_word(condition, name); });
 }
 
 std::string identity(const Trial& trial) { return what_is_flown(trial.run) + trial.text(); }

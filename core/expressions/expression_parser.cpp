@@ -27,11 +27,26 @@ void expect_condition(const Expression& part, const std::string& where) {
   ExpressionParser::fail(part.at, where + " must be a condition, and this is a number; compare it: '... > 0'");
 }
 
+/// "m, cm or km"; empty: numbers of this unit cannot be written.
+std::string names_of(const Unit& unit) {
+  std::vector<std::string> names;
+  for (const UnitName& name : kUnitNames) {
+    if (name.unit == unit) names.emplace_back(name.name);
+  }
+  if (names.empty()) return "";
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : joined(names) + " or " + last;
+}
+
 /// The message has a hint for the most common mistake, a number without its unit.
 void expect_same_unit(const Expression& a, const Expression& b) {
   if (a.unit == b.unit) return;
   std::string message = "units do not fit: the left side is " + of_unit(a.unit) + ", the right side " + of_unit(b.unit);
-  if (b.op == Op::number && b.unit == kPlainNumber) message += "; write a unit behind the number";
+  const std::string names = names_of(a.unit);
+  if (b.op == Op::number && b.unit == kPlainNumber && !names.empty()) {
+    message += "; write a unit behind the number: " + names;
+  }
   ExpressionParser::fail(b.at, message);
 }
 

@@ -182,7 +182,8 @@ TEST_F(Expressions, VariablesAndParametersHaveTheValuesGiven) {
 TEST_F(Expressions, WrongExpressionsAreRefusedWithTheColumn) {
   refused("", 0, "a signal, a number or '('");
   refused("separatoin > 1 m", 0, "did you mean 'separation'?");
-  refused("separation > 1", 13, "write a unit behind the number");
+  refused("separation > 1", 13, "write a unit behind the number: m, cm or km");
+  refused("separation > 3 min", 13, "write a unit behind the number: m, cm or km");
   refused("separation > 1 s", 13, "the left side is in m, the right side in s");
   refused("separation > 1x", 14, "there is no unit 'x'");
   refused("separation", 10, "must be compared");

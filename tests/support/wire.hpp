@@ -95,9 +95,11 @@ inline std::string frame(const std::string& payload, unsigned char first = 0x81)
   if (payload.size() < 126) {
     bytes += static_cast<char>(0x80 | payload.size());
   } else {
-    bytes += static_cast<char>(0x80 | 126);
-    bytes += static_cast<char>(payload.size() >> 8);
-    bytes += static_cast<char>(payload.size() & 0xff);
+    const bool is_long = payload.size() > 0xffff;
+    bytes += static_cast<char>(0x80 | (is_long ? 127 : 126));
+    for (int shift = is_long ? 56 : 8; shift >= 0; shift -= 8) {
+      bytes += static_cast<char>(payload.size() >> shift & 0xff);
+    }
   }
   return bytes + std::string(4, '\0') + payload;
 }

@@ -1,6 +1,7 @@
 // Registry of planners and of programs at the ground station, by name. Each class registers itself before main().
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -49,6 +50,10 @@ class StrategyRegistry {
       throw InputError("--planner: there is no " + what + " '" + shortened(name) + "'; " + suggestion(name, names()));
     }
     const bool is_file = !parameters.empty() && parameters.find('=') == std::string::npos;
+    if (is_file && !std::filesystem::exists(parameters)) {
+      throw InputError("--planner " + name + ":" + parameters + ": there is no file " + parameters +
+                       "; parameters are KEY=VALUE, or a file with them");
+    }
     return found->second(
         is_file ? read_config_document(parameters) : parse_assignments(parameters, "--planner " + name), agent);
   }
