@@ -32,7 +32,7 @@ struct Proposal {
 /// The simplifications of a trial, most effective first:
 /// - a shorter mission, which makes all further flights cheaper;
 /// - fewer faults: first without half of them, then without single ones;
-/// - fewer UAVs, no draws from the seed, fewer conditions, a simpler scene, a planner without parameters;
+/// - fewer UAVs, seed 0, fewer conditions, a simpler scene, a planner without parameters;
 /// - for each fault: no condition to wait for, a shorter duration, a weaker effect, rounder times.
 /// @param after_s  time that the mission must go on after its last fault [s]: some properties judge the time after the
 ///   faults, and would fail in any shorter mission. nullopt: the mission may end once the failure has been seen.

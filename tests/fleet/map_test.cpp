@@ -7,7 +7,8 @@ namespace {
 
 constexpr double kPodiumHeight = 5.5;
 
-/// A block on a podium that is in no box: the podium extends 8 m from the front face, where the strips end.
+/// A block on a podium. The only box contains the block alone; the podium extends 8 m in front of the block's
+/// front face, where a UAV would fly to photograph this face.
 SmallScene hidden_podium() {
   SmallScene scene;
   const Block block = {{30.0, 0.0, 9.0}, {12.0, 30.0, 18.0}};
@@ -33,7 +34,7 @@ TEST_F(MapMatters, PatrolKeepsAwayFromStructureOutsideAllBoxes) {
   EXPECT_TRUE(with_map["collisions"].empty()) << with_map["collisions"];
   EXPECT_GT(with_map["score"], 0.0) << "the UAVs have not photographed the front face above the podium";
 
-  // For comparison, a UAV that knows no map flies along the front face, as if there were only the boxes.
+  // For comparison, `waypoints` flies a path through the podium: it uses no map.
   const auto file = write("front.yaml",
                           "paths:\n  jurong:\n    - {position: [19, 9, 10]}\n    - {position: [19, 9, 4]}\n"
                           "    - {position: [19, -9, 4]}\n");

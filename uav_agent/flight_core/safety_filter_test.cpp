@@ -18,8 +18,9 @@ constexpr double kBetweenStepsM = 0.01;
 /// An obstacle that the UAV flies away from may be within the tube by this distance [m]; measured: 0.035 m.
 constexpr double kFliesAwayM = 0.05;
 
-// If cells of the map only become free, the space around the UAV's braking path is free, whatever its commands. The
-// tube widens with the speed, so an obstacle that the UAV flies away from may be in it for a while (kFliesAwayM).
+// In this test, no cell of the map becomes occupied. So the space around the UAV's braking path must be free at any
+// time, whatever its commands. The tube widens with the speed, so an obstacle that the UAV flies away from may be in it
+// for a while (kFliesAwayM).
 TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
   double flown_m = 0.0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -49,8 +50,8 @@ TEST(SafetyFilter, CouldBrakeInFreeSpaceAtAnyTime) {
   EXPECT_GT(flown_m, 1000.0) << "a UAV that does not fly would prove nothing";
 }
 
-// The UAV sees an obstacle within its braking distance. The filter can no longer change the braking path, but it can
-// keep the UAV from coming nearer than that.
+// The UAV sees an obstacle within its braking distance. The filter can no longer change the braking path, but it must
+// not let the UAV come nearer to the obstacle than this path does.
 TEST(SafetyFilter, ComesNoNearerToANewObstacleThanItsBrakingPath) {
   int broken = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
@@ -86,15 +87,15 @@ TEST(SafetyFilter, ComesNoNearerToANewObstacleThanItsBrakingPath) {
   EXPECT_GT(broken, 40) << "nothing stood in the way";
 }
 
-// Too little is known around the UAV, and commands tell it again and again to fly off. The place that it keeps is not
-// the measured position: that swings, and each swing forward would allow the UAV to follow it.
+// Too little space around the UAV is known, and commands repeatedly tell it to fly off. The filter holds the UAV at a
+// fixed place and not at its measured position: this position swings, and with each swing forward the UAV would follow.
 TEST(SafetyFilter, DoesNotCreepIntoTheUnknown) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     RandomStream random(seed, "creeps", 0);
     const Vector3d ahead_W = drawn_within(random, 1.0).normalized();
     const double free_m = seed % 2 == 0 ? random.uniform(0.8, 1.6) : 8.0;  // little is free on all sides, or only ahead
     GuardedUav uav(Vector3d(0.0, 0.0, 20.0) + (free_m > 2.0 ? free_m - 1.2 : 0.0) * ahead_W);
-    uav.config.tight_halo_m = kHaloM;  // as for one that has had room before
+    uav.config.tight_halo_m = kHaloM;  // as for a UAV that has had room for the full halo
     uav.map.set_free({0.0, 0.0, 20.0}, free_m);
     const Vector3d goal_W = uav.state.p_WB + 20.0 * ahead_W;
     uav.fly({{goal_W, 5.0}});
