@@ -2,6 +2,8 @@
 
 #include <sys/wait.h>
 
+#include <spdlog/fmt/fmt.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -48,6 +50,10 @@ struct Surroundings {
 constexpr const char* kOtherTime = "-25920000";
 
 constexpr std::size_t kMissions = 2;  ///< one without faults, one with a restart
+constexpr double kUsualMission_s = 40.0;
+constexpr double kRestart_s = 3.0;  ///< how long the program is gone; it ends after a third of the mission
+/// A restart must begin after the start, and end before the mission does.
+constexpr double kLeastMission_s = 6.0;
 
 /// The library that shifts the clock: beside the programs, or where it is installed.
 fs::path other_clock(const fs::path& bin_dir) {
@@ -139,6 +145,10 @@ class PlannerCheck {
     const FleetPlan plan = plan_fleet(base_, program_dir(), Processes::one_if_possible);
     base_.one_process = plan.options.one_process;
     duration_s_ = plan.scenario.duration_s;
+    if (duration_s_ < kLeastMission_s) {
+      throw InputError("--duration " + shortest(duration_s_) + ": must be at least " + shortest(kLeastMission_s) +
+                       " s, since the second mission has a restart of " + shortest(kRestart_s) + " s");
+    }
     first_uav_ = plan.scenario.fleet.front().name;
     uavs_ = plan.scenario.fleet.size();
     python_ =
@@ -166,7 +176,7 @@ class PlannerCheck {
   fs::path restart_file() const {
     const fs::path file = out_ / "restart.yaml";
     write_file_atomically(file, "faults:\n  - {at_s: " + shortest(std::floor(duration_s_ / 3.0)) +
-                                    ", for_s: 3, kill: " + first_uav_ + "}\n");
+                                    ", for_s: " + shortest(kRestart_s) + ", kill: " + first_uav_ + "}\n");
     return file;
   }
 
@@ -268,10 +278,9 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
   CLI::App* command = app.add_subcommand("check-planner",
                                          "Check that a planner is repeatable: repeat flights under other conditions "
                                          "of the machine, and name the first difference");
-  constexpr double kShortMission_s = 40.0;
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   RunOptions& run = check.run;
-  run.duration_s = kShortMission_s;
+  run.duration_s = kUsualMission_s;
   run.seed = 1;
   command->add_option("PLANNER", run.planner, "As --planner for `skein run`")->required();
   command->add_option("--scenario", run.scenario, "A name under config/scenarios/ or a YAML file")
@@ -281,7 +290,10 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
                       "Folder of data files (with models/) for scenarios that need them, such as mbs");
   command->add_option("--uavs", run.uavs, "Fleet size, as for `skein run`")
       ->check(CLI::Validator(check_positive, "POSITIVE"));
-  command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
+  command
+      ->add_option("--duration", run.duration_s,
+                   fmt::format("Mission time [s], at least {:g} (default: {:g})", kLeastMission_s, kUsualMission_s))
+      ->check(seconds);
   command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
   CLI::Option* out = command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
   command->add_flag("--force", check.force, "Use a folder that is not empty, and replace the flights in it")

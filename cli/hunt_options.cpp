@@ -1,5 +1,7 @@
 #include "cli/hunt_options.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <CLI/CLI.hpp>
 
 #include "cli/option_checks.hpp"
@@ -28,7 +30,8 @@ void add_hunt(CLI::App& app, HuntOptions& hunt) {
       ->check(CLI::Validator(check_positive, "POSITIVE"));
   command->add_option("--assets", run.assets,
                       "Folder of data files (with models/) for scenarios that need them, such as mbs");
-  command->add_option("--duration", run.duration_s, "Mission time [s]")->check(seconds)->capture_default_str();
+  command->add_option("--duration", run.duration_s, fmt::format("Mission time [s] (default: {:g})", kUsualMission_s))
+      ->check(seconds);
   command
       ->add_option("--dds", hunt.dds,
                    "Fly as processes over this DDS vendor: cyclonedds, fastdds or mixed (default: in one process where "

@@ -180,7 +180,7 @@ std::vector<std::string> uavs_with_agents(const RunOptions& options) {
 void require_within(double at_s, const Json& then) {
   const double end_s = number_in(then, "sim_time_s");
   if (at_s < end_s) return;
-  throw InputError("--at " + shortest(at_s) + ": the run ended at " + shortest(end_s) +
+  throw InputError("--at " + shortest(at_s) + ": the run ended at " + number_text(end_s) +
                    " s, so nothing would change; give an earlier time");
 }
 
@@ -248,6 +248,11 @@ int rerun(const RerunOptions& options, const Console& console) {
   RunOptions run = options_of(options.reflight.run, then);
   run.replay = replay_of(options.reflight.run, then);
   run.replay->only = {options.uav};
+  for (const std::string& debug : options.reflight.debug) {
+    if (debug.substr(0, debug.find('=')) != options.uav) {
+      throw InputError("--debug " + debug + ": only the program of " + options.uav + " runs (--uav)");
+    }
+  }
   if (options.planner) run.planner += "," + options.uav + "=" + *options.planner;
   run.attainable = run.report = false;
   choose_processes(options.reflight, run);
@@ -295,6 +300,9 @@ int fork_run(const ForkOptions& options, const Console& console) {
   const RunOptions as_it_was = run;
   ReplayOf replay = replay_of(options.reflight.run, then);
   replay.until_s = options.at_s;
+  if (options.planner && options.planner->find('=') == std::string::npos) {
+    throw InputError("--planner " + *options.planner + ": must be UAV=PLANNER, since the others fly as recorded");
+  }
   if (options.planner) run.planner += "," + *options.planner;
   run.agent = options.reflight.agent ? options.reflight.agent : run.agent;
   if (options.planner) replay.other = with_other_planner(as_it_was, run);

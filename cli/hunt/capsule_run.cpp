@@ -1,5 +1,6 @@
 #include "cli/hunt/capsule_run.hpp"
 
+#include <array>
 #include <set>
 #include <sstream>
 
@@ -74,15 +75,29 @@ Replayed judge_digest(const FaultTest& test, const fs::path& dir, const Console&
   return verdict;
 }
 
-/// @throws InputError for an option that would change what is flown, since the capsule alone defines that.
+/// A capsule defines all that is flown, and its flights are not watched.
+/// @throws InputError for an option that would change this.
 void check_options(const RunOptions& options) {
-  static const std::set<std::string> kTaken = {"scenario", "dds",    "one-process", "agent",  "assets", "out",
-                                               "force",    "record", "report",      "domain", "oracle", "check"};
+  static const std::set<std::string> kTaken = {"scenario", "dds",   "one-process", "agent",         "assets",
+                                               "out",      "force", "record",      "report",        "domain",
+                                               "oracle",   "check", "log",         "agent-timeout", "keep-maps"};
+  static const std::set<std::string> kDebugging = {"debug", "break-at", "break-on", "break-from", "cores"};
   const Json given = json_of(options), usual = json_of(RunOptions{});
   for (const auto& [name, value] : given.items()) {
     if (kTaken.contains(name) || value == value_or(usual, name.c_str(), nullptr)) continue;
+    if (kDebugging.contains(name)) {
+      throw InputError("--" + name +
+                       " does not go with a capsule: fly the capsule, then its results folder again with " +
+                       "`skein rerun FOLDER --uav UAV --debug UAV`");
+    }
     throw InputError("--" + name + " does not go with a capsule, which has all that is flown: change it in a copy of " +
                      options.scenario);
+  }
+  const std::array others = {std::pair("--place", options.place.at.has_value() || options.place.print),
+                             std::pair("--ros-env", options.ros_env.has_value()),
+                             std::pair("--view", options.view.at.has_value())};
+  for (const auto& [name, is_given] : others) {
+    if (is_given) throw InputError(std::string(name) + " does not go with a capsule: it flies on this host, unwatched");
   }
 }
 
@@ -120,6 +135,10 @@ int run_capsule(const RunOptions& options, const Console& console) {
   run.report = options.report;
   run.check = options.check;
   run.domain = options.domain;
+  run.threads = options.threads;
+  run.log = options.log;
+  run.agent_timeout_s = options.agent_timeout_s;
+  run.keep_maps_s = options.keep_maps_s;
   run.attainable = run.attainable && options.attainable;
   run.force = options.force;
   run.command = options.command;

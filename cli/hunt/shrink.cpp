@@ -167,8 +167,23 @@ class Proposals {
     trial = trial_;
     const bool one_for_all = trial.run.planner.find_first_of("=@") == std::string::npos ||
                              trial.run.planner.find(':') < trial.run.planner.find('=');
-    if (one_for_all) trial.run.planner = trial.run.planner.substr(0, trial.run.planner.find(':'));
+    const std::string name = trial.run.planner.substr(0, trial.run.planner.find(':'));
+    const bool names_a_file = name == "exec" || name == "waypoints" || name == "py";  // it does not fly without
+    if (one_for_all && !names_a_file) trial.run.planner = trial.run.planner.substr(0, trial.run.planner.find(':'));
     propose("parameters", trial);
+  }
+
+  /// The chosen conditions with one section off. Values of the scenario's own have no name, so the choice stays a text.
+  std::string without_section(const std::string& chosen, const std::string& section) const {
+    const ConditionsConfig now = chosen_conditions(chosen, scenario_.conditions);
+    const std::string text = conditions_text(chosen_conditions(section + "=none", now));
+    if (!has_word(text, "own")) return text;
+    std::string parts = chosen, kept;
+    std::ranges::replace(parts, '+', ',');
+    for (const std::string& part : split(parts)) {
+      if (!part.starts_with(section + "=")) kept += part + ",";
+    }
+    return kept + section + "=none";
   }
 
   /// No conditions, or none of one section.
@@ -176,8 +191,7 @@ class Proposals {
     if (!trial_.run.conditions) return;
     propose_under("conditions", "none");
     for (const std::string& section : condition_sections()) {
-      const ConditionsConfig now = chosen_conditions(*trial_.run.conditions, scenario_.conditions);
-      propose_under("conditions but " + section, conditions_text(chosen_conditions(section + "=none", now)));
+      propose_under("conditions but " + section, without_section(*trial_.run.conditions, section));
     }
   }
 

@@ -116,6 +116,35 @@ TEST_F(Shrinking, LeavesTheConditionsThatItNeeds) {
   }
 }
 
+// No preset has the scenario's own values, so a text of presets cannot replace the chosen ones.
+TEST_F(Shrinking, ProposesOnlyConditionsThatCanBeChosen) {
+  Scenario own = towers_;
+  own.conditions.wind.mean_mps = 4.0;
+  Trial trial;
+  trial.run.duration_s = 120.0;
+  trial.run.conditions = "battery=breezy";
+  int without_wind = 0;
+  for (const Proposal& proposal : simpler(trial, outcome_of(trial), "whole", own, kAfter_s)) {
+    if (!proposal.what.starts_with("conditions but")) continue;
+    const ConditionsConfig chosen = chosen_conditions(*proposal.trial.run.conditions, own.conditions);
+    without_wind += chosen.wind.on() ? 0 : 1;
+    EXPECT_NE(chosen.wind.on(), proposal.what == "conditions but wind") << *proposal.trial.run.conditions;
+    EXPECT_NE(chosen.battery.on(), proposal.what == "conditions but battery") << *proposal.trial.run.conditions;
+  }
+  EXPECT_EQ(without_wind, 1);
+}
+
+TEST_F(Shrinking, KeepsTheFileOrCommandThatAPlannerIs) {
+  for (const std::string planner : {"exec:./mine", "waypoints:path.csv", "py:mine.py", "kios:voxel_m=2"}) {
+    Trial trial;
+    trial.run.duration_s = 120.0;
+    trial.run.planner = planner;
+    const auto proposals = simpler(trial, outcome_of(trial), "whole", towers_, kAfter_s);
+    const bool any = std::ranges::any_of(proposals, [](const Proposal& one) { return one.what == "parameters"; });
+    EXPECT_EQ(any, planner.starts_with("kios")) << planner;
+  }
+}
+
 TEST_F(Shrinking, DoesNotDependOnHowManyFlightsFlyAtOnce) {
   for (std::uint64_t number = 0; number < 20; ++number) {
     const std::size_t most = number % 2 == 0 ? 120 : number;

@@ -118,8 +118,8 @@ ConditionsConfig chosen_conditions(const std::string& text, const ConditionsConf
     check_preset(preset);
     if (equals == std::string::npos) {
       if (!named.empty()) {
-        throw InputError("'" + part + "' is for all sections, so it stands once, and before single ones: '" + preset +
-                         ",wind=harsh', say");
+        throw InputError("'" + part + "' is for all sections, so it stands once, and before single ones, such as '" +
+                         preset + ",wind=none'");
       }
       named.insert("");
       chosen = conditions_preset(preset);

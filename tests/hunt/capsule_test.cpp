@@ -51,10 +51,19 @@ TEST_F(Capsule, ReportsTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
 // The capsule defines the flight: options that would change it are refused.
 TEST_F(Capsule, RefusesOptionsThatWouldChangeTheFlight) {
   const std::string capsule = write("share.yaml", kShare);
-  const std::vector<Arguments> refused = {{"--duration", "20"}, {"--planner", "kios"},       {"--seed", "3"},
-                                          {"--uavs", "4"},      {"--clock", "realtime"},     {"--secure"},
-                                          {"--rules", "paper"}, {"--agent-timeout", "5"},    {"--debug", "jurong=wait"},
-                                          {"--stop-at", "10"},  {"--faults", "nobody.yaml"}, {"--scene-seed", "2"}};
+  const std::vector<Arguments> refused = {{"--duration", "20"},
+                                          {"--planner", "kios"},
+                                          {"--seed", "3"},
+                                          {"--uavs", "4"},
+                                          {"--clock", "realtime"},
+                                          {"--secure"},
+                                          {"--rules", "paper"},
+                                          {"--cores"},
+                                          {"--debug", "jurong=wait"},
+                                          {"--stop-at", "10"},
+                                          {"--faults", "nobody.yaml"},
+                                          {"--scene-seed", "2"},
+                                          {"--place", "jurong=host"}};
   const auto expect_refusal = [&](const Arguments& more, const Environment& environment) {
     ChildProcess& run = start_program(
         "refused", joined({program("skein"), "run", capsule, "--out", folder() / "none"}, more), environment);

@@ -88,6 +88,12 @@ TEST_F(Rerun, AnotherPlannerGetsTheSameInputsAndItsDifferenceIsReported) {
   EXPECT_NE(process.out().find("jurong first differs at "), std::string::npos) << process.out();
   EXPECT_EQ(result_in("other")["digest"], run.digest()) << "the output of the other planner changed the flight";
   EXPECT_EQ(text_of(folder() / "other" / "trajectories.csv"), text_of(run.dir() / "trajectories.csv"));
+  ChildProcess& debugged = again("rerun", run, "none", {"--uav", "jurong", "--debug", "changi=gdb"});
+  EXPECT_EQ(debugged.wait().code, 2) << debugged.out();
+  EXPECT_NE(debugged.err().find("only the program of jurong runs"), std::string::npos) << debugged.err();
+  ChildProcess& fork = again("fork", run, "none", {"--at", "20", "--planner", "patrol"});
+  EXPECT_EQ(fork.wait().code, 2) << fork.out();
+  EXPECT_NE(fork.err().find("--planner patrol: must be UAV=PLANNER"), std::string::npos) << fork.err();
 }
 
 TEST_F(Rerun, AForkWithoutAChangeIsTheRun) {
