@@ -28,8 +28,9 @@ from .planner_config import (AgentConfig, Camera, FleetMember, FlightConfig, Vec
 __all__ = ["AgentConfig", "BeamScan", "Camera", "Firing", "FleetMember", "FlightConfig", "FlightState", "FreeSpace",
            "GimbalAim", "GimbalCommand", "GimbalState", "Goal", "GoneError", "Hold", "KeyFrame", "LinkQuality",
            "Motion", "OccupancyMap", "OrientedBox", "Outcome", "Path", "Peer", "Planner", "PlannerInput",
-           "PlannerOutput", "RadioMessage", "Scan", "Setpoint", "Space", "State", "TICKS_PER_SECOND", "TrackingState",
-           "TrajectoryCommand", "Vector", "VectorLike", "Vehicle", "Waypoint", "WorldMap", "parameter"]
+           "PlannerOutput", "RadioMessage", "Scan", "Setpoint", "Space", "Stake", "State", "TICKS_PER_SECOND",
+           "TrackingState", "TrajectoryCommand", "Vector", "VectorLike", "Vehicle", "Waypoint", "WorldMap",
+           "parameter"]
 
 TICKS_PER_SECOND = 400
 _ZERO = (0.0, 0.0, 0.0)
@@ -115,6 +116,14 @@ class Goal:
 
 
 @dataclass(slots=True)
+class Stake:
+    """The value of the UAV's work: the flight core weighs the loss of captures against the time of a delivery."""
+
+    value: float       #: score that would be lost with the UAV: of captures that the station lacks [points]
+    gain_per_s: float  #: score that the planner's present route promises [points/s]
+
+
+@dataclass(slots=True)
 class RadioMessage:
     """A message between planners. The radio does not identify the sender."""
 
@@ -133,6 +142,7 @@ class PlannerOutput:
     trigger: bool = False     #: take a picture now; the first trigger ends the camera's automatic rhythm for good
     radio: Sequence[RadioMessage] = ()
     goals: Sequence[Goal] | None = None  #: best first; only with `Planner.flight()`. None: the last list stays
+    stake: Stake | None = None  #: only with `Planner.flight()`. None: the flight core delivers captures by time
     heard_maps: Sequence[bytes] = ()     #: maps received from other UAVs (`OccupancyMap.octomap_bytes()`)
     going_to_W: VectorLike | None = None  #: where it is about to fly: other UAVs send map updates about the way first
     no_way: str = ""                     #: why it found no path in this exchange

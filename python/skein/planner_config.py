@@ -108,3 +108,4 @@ class FlightConfig:
     land_mps: float = 1.0
     deliver_every_s: float = 240.0
     return_margin_s: float = 12.0
+    hazard_per_h: float = 1.0

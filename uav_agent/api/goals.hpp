@@ -30,6 +30,13 @@ struct Goal {
   GimbalAim gimbal = {};           ///< applied when the core sets out to the goal
 };
 
+/// The value of a UAV's work, from a planner that knows it. The flight core then weighs the loss of captures against
+/// the time of a delivery (flight/delivery_rule.hpp).
+struct Stake {
+  double value = 0.0;       ///< score that would be lost with the UAV: of captures that the station lacks [points]
+  double gain_per_s = 0.0;  ///< score that the planner's present route promises [points/s]
+};
+
 /// How a goal ended.
 struct Outcome {
   enum class Kind : std::uint8_t {

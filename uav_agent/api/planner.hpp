@@ -93,6 +93,8 @@ struct PlannerOutput {
   /// does not turn the UAV itself. The core turns a UAV with a working LiDAR along its path, and any UAV to the yaw of
   /// its goal near the goal; along the way of a goal with a yaw, it does not turn the UAV any more.
   std::optional<std::vector<Goal>> goals = {};
+  /// In this exchange. nullopt: the flight core decides by time when it delivers captures. Only if flight().
+  std::optional<Stake> stake = {};
   /// Maps received from other UAVs (OccupancyMap::octomap_bytes()); the agent merges them into PlannerInput::map.
   std::vector<std::string> heard_maps = {};
   /// Where this UAV is about to fly: the other UAVs send it map updates about the way there first. Only if

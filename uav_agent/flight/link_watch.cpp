@@ -1,10 +1,14 @@
 #include "uav_agent/flight/link_watch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace skein::agent {
 namespace {
 
 constexpr double kLinkAgeS = 1.0;  ///< time between two noted places of a link; shorter links are not noted; chosen
 constexpr double kStuckS = 5.0;    ///< without an arrival for this long, captures are not delivered from here; chosen
+constexpr double kCubeM = 8.0;     ///< edge of the cubes in which linked places are kept; chosen
 
 }  // namespace
 
@@ -23,7 +27,11 @@ void LinkWatch::note_link(const PlannerInput& in) {
   if (!in.station_linked) {
     sighting_.reset();
   } else if (!sighting_ || seconds(in.tick - sighting_->tick) >= kLinkAgeS) {
-    if (sighting_) linked_at_W_ = sighting_->p_WB;
+    if (sighting_) {
+      linked_at_W_ = sighting_->p_WB;
+      const Eigen::Vector3i cube = (*linked_at_W_ / kCubeM).array().floor().cast<int>();
+      linked_W_[{cube.x(), cube.y(), cube.z()}] = *linked_at_W_;
+    }
     sighting_ = {in.tick, in.tracking.setpoint.p_WB};
   }
 }
@@ -33,8 +41,14 @@ bool LinkWatch::delivers_here(const PlannerInput& in) const {
   return in.undelivered_captures == 0 && linked_at_ && seconds(in.tick - *linked_at_) < kLinkAgeS;
 }
 
-bool LinkWatch::waits_for_longer_than(double time_s, const PlannerInput& in) const {
-  return in.undelivered_captures > 0 && seconds(in.tick - *delivered_at_) > time_s;
+double LinkWatch::waited_s(const PlannerInput& in) const {
+  return in.undelivered_captures > 0 ? seconds(in.tick - *delivered_at_) : 0.0;
+}
+
+std::optional<Vector3d> LinkWatch::linked_near_W(const Vector3d& p_W) const {
+  const auto off_m = [&](const auto& linked) { return (linked.second - p_W).norm(); };
+  const auto nearest = std::ranges::min_element(linked_W_, {}, off_m);
+  return nearest == linked_W_.end() ? std::nullopt : std::optional(nearest->second);
 }
 
 }  // namespace skein::agent

@@ -1,5 +1,5 @@
-// Parameters of the flight core. Every strategy that uses the flight core accepts all of them. Users set them together
-// with the planner's own parameters (--planner patrol:approach_mps=3), so `skein compare` can sweep them.
+// Parameters of the flight core. Every strategy that uses the flight core accepts those that affect it. Users set them
+// together with the planner's own parameters (--planner patrol:approach_mps=3), so `skein compare` can sweep them.
 // Units: SI and radians unless the name says otherwise.
 #pragma once
 
@@ -66,11 +66,21 @@ struct FlightConfig {
   double land_mps = 1.0;  ///< vertical speed of a landing
 
   // Return to the station, to deliver captures (homing.hpp).
-  double deliver_every_s = 240.0;  ///< maximum time for which a UAV continues its work with undelivered captures
+  /// If the planner does not state its stake (PlannerOutput::stake): maximum time for which a UAV continues its work
+  /// with undelivered captures. For all planners: time for which a UAV works on after it found no place with a link.
+  double deliver_every_s = 240.0;
+  /// If the planner states its stake: expected losses of a UAV in an hour of flight. 0: no delivery before the one at
+  /// the mission's end.
+  double hazard_per_h = 1.0;
   /// Planned time between the arrival at a place with a link and the end of the mission.
   double return_margin_s = 12.0;
 
   void describe(auto& r) {
+    describe_by_time(r);
+    r.field("hazard_per_h", hazard_per_h, within(0.0, 3600.0));
+  }
+  /// The parameters of a planner that does not state the value of its captures (PlannerOutput::stake).
+  void describe_by_time(auto& r) {
     r.field("error_m", error_m, within(0.0, 2.0));
     r.field("light_error_m", light_error_m, within(0.0, 2.0));
     r.field("error_per_mps_s", error_per_mps_s, within(0.0, 1.0));

@@ -105,7 +105,8 @@ void FlightCore::enter(Mode mode, const PlannerInput& in) {
   since_ = in.tick;
 }
 
-Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal>> goals) {
+Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal>> goals,
+                          const std::optional<Stake>& stake) {
   Steering steering;
   waits_for_.reset();
   no_way_.clear();
@@ -115,7 +116,7 @@ Steering FlightCore::step(const PlannerInput& in, std::optional<std::vector<Goal
     cut_id_.reset();
   }
   const bool asked = goals.has_value();
-  if (mode_ != Mode::ground) homing_.update(in);
+  if (mode_ != Mode::ground) homing_.update(in, stake);
   if (mode_ != Mode::ground && mode_ != Mode::landing && caution_.must_land(in)) {
     landing_.begin(steering);
     lost_way_home_ = false;

@@ -42,8 +42,8 @@ class FlightCore {
   /// The state for PlannerInput. Outcomes are handed out in mode `working` only, and kept until then, so that the
   /// planner receives them when its goals count.
   FlightState state();
-  /// Runs one exchange, after the planner has decided.   @param goals  see PlannerOutput::goals.
-  Steering step(const PlannerInput& in, std::optional<std::vector<Goal>> goals);
+  /// Runs one exchange, after the planner has decided.   @param goals, stake  see PlannerOutput.
+  Steering step(const PlannerInput& in, std::optional<std::vector<Goal>> goals, const std::optional<Stake>& stake = {});
   /// Advances the tracker by one exchange, as fast as the safety filter allows. Call it after step().
   std::optional<TrajectoryCommand> move(Tracker& tracker, const SafetyFilter::Facts& facts) {
     const bool assumes = filter_.assumes_boxes() || filter_.trust() == SafetyFilter::Trust::unknown;

@@ -37,7 +37,7 @@ struct InARoom : CoreUav {
     core.update(in);
     in.flight = core.state();
     std::vector<Outcome> outcomes = in.flight.outcomes;
-    const Steering steering = core.step(in, std::move(goals));
+    const Steering steering = core.step(in, std::move(goals), stake);
     doing = core.doing(in).what;
     fly_by(steering);
     return outcomes;
@@ -51,6 +51,7 @@ struct InARoom : CoreUav {
     using enum Doing::What;
     return doing == looks_round || doing == approaches || doing == elsewhere || doing == climbs || doing == back;
   }
+  std::optional<Stake> stake;
   Doing::What doing = Doing::What::ground;
 };
 
@@ -78,6 +79,26 @@ TEST(GoingHome, AUavThatFindsNoPathHomeGoesBackToWork) {
     }
     EXPECT_GT(reached_late, 10) << "seed " << seed;
     EXPECT_GE(recoveries, 3) << "seed " << seed << ": it must try to fly home again and again";
+  }
+}
+
+// The strategy's goal lasts for the whole test.
+TEST(GoingHome, WithAStakeAUavGoesHomeWhenTheDeliveryPays) {
+  for (const double value : {0.0, 1.0, 1000.0}) {
+    InARoom uav({0.0, -14.0, 4.5});
+    uav.config.hazard_per_h = 2.0;
+    uav.stake = Stake{.value = value, .gain_per_s = 1.0};
+    uav.exchange(std::vector<Goal>{{.id = 1, .way = {{Vector3d(0.0, 12.0, 12.0), 1.0}}}});
+    double home_s = 0.0;
+    while (uav.now_s() < 200.0 && home_s == 0.0) {
+      uav.exchange();
+      if (uav.goes_home()) home_s = uav.now_s();
+    }
+    if (value < 1000.0) {
+      EXPECT_EQ(home_s, 0.0) << "value " << value << ": deliver_every_s is over, but the flight costs more";
+    } else {
+      EXPECT_GT(home_s, 0.0);
+    }
   }
 }
 

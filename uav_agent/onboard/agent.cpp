@@ -253,7 +253,7 @@ PlannerOutput Agent::Impl::plan(const PlannerInput& in) {
 /// Lets the flight core fly to the planner's goals: replaces the planner's motion with the core's.
 void Agent::Impl::fly(const PlannerInput& in, PlannerOutput& decision) {
   const PartTimer timer(parts.get(), "flight/other");
-  Steering steering = core->step(in, std::move(decision.goals));
+  Steering steering = core->step(in, std::move(decision.goals), decision.stake);
   decision.motion = std::move(steering.motion);
   if (steering.yaw) decision.yaw = steering.yaw;
   if (!std::holds_alternative<std::monostate>(steering.gimbal)) decision.gimbal = steering.gimbal;

@@ -112,6 +112,7 @@ Words::Words(const py::module_& planner)
       radio_message(planner.attr("RadioMessage")),
       scan(planner.attr("Scan")),
       setpoint(planner.attr("Setpoint")),
+      stake(planner.attr("Stake")),
       state(planner.attr("State")),
       tracking_state(planner.attr("TrackingState")),
       trajectory_command(planner.attr("TrajectoryCommand")),

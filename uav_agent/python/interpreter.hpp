@@ -19,7 +19,8 @@ struct Words {
 
   py::object agent_config, beam_scan, camera, firing, fleet_member, flight_config, flight_state, gimbal_command,
       gimbal_state, goal, gone_error, hold, key_frame, link_quality, oriented_box, outcome, path, peer, planner_input,
-      planner_output, radio_message, scan, setpoint, state, tracking_state, trajectory_command, vehicle, waypoint;
+      planner_output, radio_message, scan, setpoint, stake, state, tracking_state, trajectory_command, vehicle,
+      waypoint;
 };
 
 struct Interpreter {

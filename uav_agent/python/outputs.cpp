@@ -88,6 +88,18 @@ std::vector<Goal> read_goals(py::handle value, const Place& place) {
   return goals;
 }
 
+Stake read_stake(py::handle value, const Place& place) {
+  if (!is_a(value, words().stake)) place.refuse("a skein.planner.Stake or None", value);
+  const auto number = [&](const char* name) {
+    const py::object given = value.attr(name);
+    const Place here(place, name);
+    const double read = read_number(given, here);
+    if (read < 0.0) here.refuse("0 or more", given);
+    return read;
+  };
+  return {number("value"), number("gain_per_s")};
+}
+
 std::vector<RadioMessage> read_radio(py::handle value, const Place& place, const std::vector<std::string>& topics) {
   std::vector<RadioMessage> messages;
   const py::tuple items = read_list(value, place, "RadioMessages");
@@ -159,6 +171,10 @@ PlannerOutput read_output(py::handle value, const OutputRules& rules) {
   if (const py::object goals = field("goals"); !goals.is_none()) {
     if (!rules.flown) throw WrongOutput("goals: need the flight core: let flight() return a FlightConfig");
     output.goals = read_goals(goals, Place("goals"));
+  }
+  if (const py::object stake = field("stake"); !stake.is_none()) {
+    if (!rules.flown) throw WrongOutput("stake: needs the flight core: let flight() return a FlightConfig");
+    output.stake = read_stake(stake, Place("stake"));
   }
   const py::tuple heard = read_list(field("heard_maps"), Place("heard_maps"), "bytes");
   for (std::size_t i = 0; i < heard.size(); ++i) {

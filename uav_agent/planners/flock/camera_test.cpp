@@ -231,6 +231,22 @@ TEST(FlockCamera, PicturesOfAFailedCameraNoLongerCount) {
   }
 }
 
+TEST(Flock, AUavStatesWhatItsUndeliveredCapturesHaveAdded) {
+  FlockAtLongWall uav(1);
+  PlannerOutput out;
+  for (uav.undelivered = 1; uav.undelivered < 200; ++uav.undelivered) {
+    out = uav.exchange(true);
+    double added = 0.0;
+    for (const DetectedPoint& point : uav.points) added += point.score;
+    ASSERT_TRUE(out.stake);
+    EXPECT_NEAR(out.stake->value, added, 1e-6);
+  }
+  EXPECT_GT(out.stake->value, 0.3 * 360.0 + 1.0) << "pictures have improved points";
+  EXPECT_GT(out.stake->gain_per_s, 0.1);
+  uav.undelivered = 0;
+  EXPECT_EQ(uav.exchange(false).stake->value, 0.0);
+}
+
 /// A camera fails at a drawn time, and works again 30 s later. While the UAV knows of the failure, it leaves all work
 /// to other UAVs, and waits away from the wall. Once the camera works again, the UAV claims views at once.
 TEST(Flock, AViewIsClaimedOnlyByAUavThatCanTakeIt) {

@@ -18,6 +18,7 @@
 #include "uav_agent/flight/free_space.hpp"
 #include "uav_agent/flight/voxel_route.hpp"
 #include "uav_agent/planners/flock/camera.hpp"
+#include "uav_agent/planners/flock/cargo.hpp"
 #include "uav_agent/planners/flock/config.hpp"
 #include "uav_agent/planners/flock/reach.hpp"
 #include "uav_agent/planners/flock/route.hpp"
@@ -91,6 +92,7 @@ class FlockPlanner final : public Planner {
   FlockStay stay_;
   Tick planned_at_ = 0, glance_until_ = 0, sought_at_ = 0;
   FlockWork work_;
+  FlockCargo cargo_;
   bool glances_ = false;  ///< the camera looks elsewhere than the route's first view
   FlockTrail trail_;
   Vector3d rest_W_ = Vector3d::Zero();
@@ -109,6 +111,7 @@ PlannerOutput FlockPlanner::plan(const PlannerInput& in) {
   } else {
     route_.clear();
   }
+  out.stake = cargo_.stake();
   talk_.speak(in, surfaces_->told_grid(), surfaces_->points(), own_word(), out);
   return out;
 }
@@ -129,7 +132,7 @@ void FlockPlanner::set_up(const PlannerInput& in) {
 void FlockPlanner::look_around(const PlannerInput& in) {
   const PartTimer timer(in.parts, "planner/map and pictures");
   const CameraState camera = camera_state(in.state, in.gimbal, agent_.vehicle.camera);
-  surfaces_->detect(in.detected, camera.X_WC.translation());
+  cargo_.update(surfaces_->detect(in.detected, camera.X_WC.translation()), in.undelivered_captures);
   const bool failed = camera_.failed();
   camera_.hear(!in.detected.empty(), in.tick);
   if (in.k % kCameraSteps == 0 && in.tracking.airborne) {
@@ -285,11 +288,11 @@ void FlockPlanner::decide(const PlannerInput& in, PlannerOutput& out) {
     }
     route = best_route();
   }
+  cargo_.note(route.rate());
   if (route.views.empty()) return rest(in, std::move(best_W), out);
-  const bool goes_on = current && route.views.front() == *current;
   route_.clear();
   for (const std::size_t i : route.views) route_.push_back(views[i]);
-  if (!goes_on) stay_.leave_place();
+  if (!current || route.views.front() != *current) stay_.leave_place();
   rests_ = false;
   lookout_.reset();
   offer(in, way, out);

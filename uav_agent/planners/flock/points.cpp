@@ -33,12 +33,12 @@ std::uint8_t component(double n) {
 
 }  // namespace
 
-void FlockPoints::detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC) {
+double FlockPoints::detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC) {
   std::vector<Told> all;
   for (const DetectedPoint& point : detected) {
     all.push_back({point.p_W.cast<double>(), point.n_W.cast<double>(), point.score, point.order});
   }
-  take(all, &p_WC);
+  return take(all, &p_WC);
 }
 
 std::optional<FlockPoints::Spot> FlockPoints::spot_of(const Told& told) {
@@ -56,14 +56,15 @@ std::optional<FlockPoints::Spot> FlockPoints::spot_of(const Told& told) {
   return spot;
 }
 
-void FlockPoints::take(const std::vector<Told>& all, const Vector3d* p_WC) {
+double FlockPoints::take(const std::vector<Told>& all, const Vector3d* p_WC) {
+  double gained = 0.0;
   std::set<std::size_t> taken;
   std::vector<std::pair<const Told*, Spot>> others;
   for (const Told& told : all) {
     const auto spot = spot_of(told);
     if (!spot) continue;
     if (const auto point = known(told, *spot)) {
-      raise(*point, told, *spot);
+      gained += raise(*point, told, *spot);
       taken.insert(*point);
     } else {
       others.emplace_back(&told, *spot);
@@ -72,12 +73,14 @@ void FlockPoints::take(const std::vector<Told>& all, const Vector3d* p_WC) {
   for (const auto& [told, spot] : others) {
     std::optional<std::size_t> point = merge_m_ > 0.0 ? nearest(*told, taken) : known(*told, spot);
     if (point) {
-      raise(*point, *told, spot);
+      gained += raise(*point, *told, spot);
     } else {
       point = add(*told, spot, p_WC);
+      if (point) gained += told->q;
     }
     if (point) taken.insert(*point);
   }
+  return gained;
 }
 
 std::optional<std::size_t> FlockPoints::known(const Told& told, const Spot& spot) const {
@@ -106,7 +109,8 @@ std::optional<std::size_t> FlockPoints::add(const Told& told, const Spot& spot, 
 }
 
 /// Updates a known point after a detection by this UAV or another one: its place, and its quality if that is better.
-void FlockPoints::raise(std::size_t point, const Told& told, const Spot& spot) {
+/// @returns by how much its quality rises.
+double FlockPoints::raise(std::size_t point, const Told& told, const Spot& spot) {
   if (told.own && merge_m_ > 0.0) {
     own_[*told.own] = point;
     is_own_[point] = true;
@@ -114,8 +118,10 @@ void FlockPoints::raise(std::size_t point, const Told& told, const Spot& spot) {
     move(point, spot, told.p_W);
   }
   regions_[spots_[point].cell].changed |= quality_step(told.q) > quality_step(points_[point].q);
-  if (told.q > points_[point].q) points_[point].vain = 0;
+  const double gained = std::max(0.0, told.q - points_[point].q);
+  if (gained > 0.0) points_[point].vain = 0;
   points_[point].q = std::max(points_[point].q, told.q);
+  return gained;
 }
 
 /// The nearest point within merge_m_ on a surface that faces the same way, or the opposite way: the sign of a normal

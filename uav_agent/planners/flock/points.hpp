@@ -44,7 +44,8 @@ class FlockPoints {
 
   /// Adds detections of this UAV's own camera.
   /// @param p_WC  position of the camera.
-  void detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC);
+  /// @returns by how much they raise the sum of the best known qualities.
+  double detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC);
   /// Call it when a picture of this UAV should show a point better than any before. After ten pictures that did not,
   /// something must hide the point that is not on the map: the point is left out for two minutes.
   void expect_better(std::size_t point, Tick now);
@@ -88,8 +89,9 @@ class FlockPoints {
 
   static std::optional<Spot> spot_of(const Told& told);
   /// Adds points of one UAV, which are different ones: in exact places, or nearest to known ones, or new.
-  void take(const std::vector<Told>& all, const Vector3d* p_WC);
-  void raise(std::size_t point, const Told& told, const Spot& spot);
+  /// @returns the same as detect().
+  double take(const std::vector<Told>& all, const Vector3d* p_WC);
+  double raise(std::size_t point, const Told& told, const Spot& spot);
   std::optional<std::size_t> add(const Told& told, const Spot& spot, const Vector3d* p_WC);
   /// Index of the point with this order, or in exactly this place.
   std::optional<std::size_t> known(const Told& told, const Spot& spot) const;

@@ -189,6 +189,26 @@ TEST(FlockPoints, EverySliceIsSentEvenIfOtherRegionsKeepChanging) {
   }
 }
 
+TEST(FlockPoints, DetectionsGainWhatTheyAddToTheKnownQualities) {
+  for (const double merge_m : {0.0, 1.0}) {
+    RandomStream random(1, "gains", 0);
+    FlockPoints points(merge_m);
+    const auto sum = [&] {
+      double all = 0.0;
+      for (const FlockPoint& point : points.all()) all += point.q;
+      return all;
+    };
+    std::vector<DetectedPoint> drawn = drawn_points(random, 60);
+    for (int round = 0; round < 20; ++round) {
+      const double before = sum();
+      for (DetectedPoint& point : drawn) point.score = random.uniform(0.0, 1.0);
+      const double gained = points.detect(drawn, Vector3d::Zero());
+      EXPECT_NEAR(gained, sum() - before, 1e-9);
+      EXPECT_EQ(points.detect(drawn, Vector3d::Zero()), 0.0) << "the same pictures again";
+    }
+  }
+}
+
 TEST(FlockPoints, ADetectionWithoutAPlaceIsLeftOut) {
   for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e9F}) {
     for (int axis = 0; axis < 3; ++axis) {

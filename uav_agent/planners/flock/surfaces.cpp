@@ -98,12 +98,13 @@ bool FlockSurfaces::sees(const Vector3d& p_WC, const Vector3d& p_W) const {
   return length <= end_m || grid_.sees(p_WC, p_W + way * (end_m / length));
 }
 
-void FlockSurfaces::detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC) {
-  if (detected.empty()) return;
-  points_.detect(detected, p_WC);
+double FlockSurfaces::detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC) {
+  if (detected.empty()) return 0.0;
+  const double gained = points_.detect(detected, p_WC);
   for (const Look& look : std::exchange(not_told_, {})) {
     if (look.shown) grid_.mark(look.id, look.face);
   }
+  return gained;
 }
 
 void FlockSurfaces::forget_pictures() {

@@ -58,7 +58,8 @@ class FlockSurfaces {
   void look_at_picture(const Exposure& exposure, Tick now);
   /// Adds the camera's detections. Only a detection marks the faces that the camera looked at for the other UAVs:
   /// without one, the camera may have failed.   @param p_WC  position of the camera.
-  void detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC);
+  /// @returns by how much they raise the sum of the points' best known qualities.
+  double detect(std::span<const DetectedPoint> detected, const Vector3d& p_WC);
   /// Call it when the camera turns out to have failed: takes back what was noted of pictures since the last detection.
   void forget_pictures();
 

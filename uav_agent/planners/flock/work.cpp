@@ -7,7 +7,6 @@ namespace skein::agent {
 namespace {
 
 constexpr double kPointsPerS = 1.2;  ///< points that a UAV photographs where there are enough; chosen
-constexpr double kRateShare = 0.15;  ///< weight of a new decision in the moving average; chosen
 
 }  // namespace
 

@@ -11,6 +11,8 @@ namespace skein::agent {
 
 class FlockWork {
  public:
+  static constexpr double kRateShare = 0.15;  ///< weight of a new decision in moving averages of gains; chosen
+
   /// Notes the gain that the route of a decision promises [points/s].
   void note(double rate);
   /// Moving average of the gain that the UAV's routes promise [points/s].

@@ -18,7 +18,7 @@ struct HandConfig {
   void describe(auto& r) {
     r.field("file", file);
     r.field("safe", safe);
-    flight.describe(r);
+    flight.describe_by_time(r);
   }
 };
 

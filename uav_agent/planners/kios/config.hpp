@@ -60,7 +60,7 @@ struct KiosConfig {
     r.field("silence_s", silence_s, within(0.0, kNeverS));
     r.field("maps_anew", maps_anew);
     r.field("faithful", faithful);
-    flight.describe(r);
+    flight.describe_by_time(r);
     r.check(voxel_m == 0.0 || voxel_m >= 1.0, "voxel_m", "must be 0 (by the camera) or at least 1");
   }
 };

@@ -37,7 +37,7 @@ struct LearnerConfig {
     r.field("map_z", map_z, within(0, 256));
     r.field("map_cell_m", map_cell_m, within(0.5, 16.0));
     r.field("scans", scans);
-    flight.describe(r);
+    flight.describe_by_time(r);
   }
 };
 

@@ -23,7 +23,7 @@ struct PatrolConfig {
     r.field("blind_ratio", blind_ratio, within(0.2, 1.5));
     r.field("overlap", overlap, within(0.0, 0.8));
     r.field("speed_gain", speed_gain, within(0.2, 5.0));
-    flight.describe(r);
+    flight.describe_by_time(r);
   }
 };
 

@@ -90,7 +90,7 @@ struct StarConfig {
     r.field("faithful", faithful);
     r.check(voxel_m == 0.0 || voxel_m >= 1.0, "voxel_m", "must be 0 (by the camera) or at least 1");
     r.check(ring_inner_m <= ring_outer_m, "ring_outer_m", "must not be less than ring_inner_m");
-    flight.describe(r);
+    flight.describe_by_time(r);
   }
 };
 

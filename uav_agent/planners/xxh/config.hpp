@@ -129,7 +129,7 @@ struct XxhConfig {
     r.field("hand_over_s", hand_over_s, within(0.0, kNeverS));
     r.field("look_again_s", look_again_s, within(1.0, kNeverS));
     r.field("faithful", faithful);
-    flight.describe(r);
+    flight.describe_by_time(r);
   }
 };
 
