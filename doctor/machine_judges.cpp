@@ -27,15 +27,15 @@ Finding judge_open_files(const MachineFacts& machine, const FleetNeeds& needs) {
   const std::string what = "open files";
   if (!machine.open_files) return fine(what, "no limit");
   const std::string found =
-      fmt::format("{} a process; {} UAVs need about {}", *machine.open_files, needs.uavs, needs.open_files());
+      fmt::format("{} per process; {} UAVs need about {}", *machine.open_files, needs.uavs, needs.open_files());
   if (*machine.open_files >= needs.open_files()) return fine(what, found);
   const std::string number = std::to_string(needs.open_files());
   if (!machine.most_open_files || *machine.most_open_files >= needs.open_files()) {
-    return fine(what, found + "; a run raises the limit, as does each program that you start by hand");
+    return fine(what, found + "; each program raises this limit for itself");
   }
   return failure(what, found,
-                 "as root raise nofile in /etc/security/limits.conf to " + number +
-                     " and log in again; a container: --ulimit nofile=" + number);
+                 "as root, raise nofile in /etc/security/limits.conf to " + number +
+                     " and log in again, or start the container with --ulimit nofile=" + number);
 }
 
 Finding judge_processes(const MachineFacts& machine, const FleetNeeds& needs) {
@@ -48,9 +48,10 @@ Finding judge_processes(const MachineFacts& machine, const FleetNeeds& needs) {
   const std::string number = std::to_string(needs.threads());
   // Only the lowest limit is in the way.
   return failure(what, found,
-                 machine.cgroup.processes == most ? "raise pids.max of the cgroup; a container: --pids-limit " + number
-                 : machine.processes == most      ? "`ulimit -u " + number + "` before the run"
-                                                  : "as root, on the host: sysctl -w kernel.threads-max=" + number);
+                 machine.cgroup.processes == most
+                     ? "raise pids.max of the cgroup, or start the container with --pids-limit " + number
+                 : machine.processes == most ? "run `ulimit -u " + number + "` in the shell before the run"
+                                             : "as root, on the host: sysctl -w kernel.threads-max=" + number);
 }
 
 Finding judge_buffers(const MachineFacts& machine) {
@@ -76,10 +77,10 @@ Finding judge_memory(const MachineFacts& machine, const FleetNeeds& needs) {
   const std::string found =
       fmt::format("{} available{}; {} UAVs need about {}", megabytes(*left), by_cgroup ? " in this cgroup" : "",
                   needs.uavs, megabytes(needs.memory_bytes()));
-  const std::string fix =
-      by_cgroup ? "raise memory.max of the cgroup; a container: --memory" : "end other programs, or fly fewer UAVs";
+  const std::string fix = by_cgroup ? "raise memory.max of the cgroup, or start the container with more --memory"
+                                    : "end other programs, or fly fewer UAVs";
   if (*left < needs.memory_bytes()) return failure(what, found, fix);
-  if (*left < 2 * needs.memory_bytes()) return warning(what, found + ", large scenes more", fix);
+  if (*left < 2 * needs.memory_bytes()) return warning(what, found + ", and more in large scenes", fix);
   return fine(what, found);
 }
 
@@ -90,19 +91,19 @@ Finding judge_cpus(const MachineFacts& machine) {
   if (!quota || *quota >= machine.cpus) return fine(what, found);
   const std::string limited = fmt::format("{}, of which the cgroup grants the time of {:.2f}", found, *quota);
   if (*quota >= 1.0) return fine(what, limited);
-  return warning(what, limited + "; a fleet is then slow, and stands still in between",
-                 "a container: --cpus 1 or more");
+  return warning(what, limited + "; this slows a fleet down and pauses it again and again",
+                 "start the container with --cpus 1 or more");
 }
 
 Finding judge_disk(const DiskFacts& disk) {
   const std::string what = "results folder", folder = disk.folder.string();
   if (!disk.create_error.empty()) {
-    return failure(what, folder + " takes no file: " + disk.create_error,
-                   "another folder with --out, or its permissions");
+    return failure(what, folder + ": no file can be created there: " + disk.create_error,
+                   "choose another folder with --out, or change its permissions");
   }
   if (!disk.free) return fine(what, folder + "; the free space is unknown");
   const std::string found = folder + " has " + megabytes(*disk.free) + " free";
-  const std::string fix = "make room, or another folder with --out";
+  const std::string fix = "free some space, or choose another folder with --out";
   if (*disk.free < kLeastDisk) return failure(what, found + ", less than a run writes", fix);
   if (*disk.free < kAmpleDisk) return warning(what, found + "; a run writes tens of MB", fix);
   return fine(what, found);
@@ -113,15 +114,16 @@ Findings judge_clocks(const ClockFacts& clocks) {
   Findings findings;
   const std::string source = clocks.source.empty() ? "" : ", by " + clocks.source;
   if (clocks.monotonic_s <= 0.0) {
-    findings.push_back(failure("monotonic clock", "it stands still" + source,
+    findings.push_back(failure("monotonic clock", "it does not advance" + source,
                                "repair the host's clock source (/sys/devices/system/clocksource)"));
   } else if (clocks.source == "hpet" || clocks.source == "acpi_pm" || clocks.source == "jiffies") {
-    findings.push_back(warning("monotonic clock", "it goes" + source + ", which takes long to read",
-                               "clocksource=tsc for the host's kernel, where its processor has a steady one"));
+    findings.push_back(warning("monotonic clock", "it advances" + source + ", which is slow to read",
+                               "if its processor has a stable TSC, boot the host's kernel with clocksource=tsc"));
   } else {
-    findings.push_back(fine("monotonic clock", "it goes" + source + "; a fleet waits by it alone"));
+    findings.push_back(fine("monotonic clock", "it advances" + source + "; programs measure all waiting times by it"));
   }
-  const std::string dates = "no result depends on it; fleets of both vendors on several hosts need its agreement";
+  const std::string dates =
+      "no result depends on it, but hosts of a fleet with both DDS vendors need clocks that agree";
   if (clocks.date_s < kYear2020) {
     findings.push_back(warning("time of day",
                                "it is before 2020; " + dates + ", and the certificates of --secure need the date",
@@ -129,7 +131,7 @@ Findings judge_clocks(const ClockFacts& clocks) {
   } else if (std::abs(clocks.realtime_s - clocks.monotonic_s) > kStepS) {
     findings.push_back(warning("time of day", "it is being set right now; " + dates, "try again"));
   } else {
-    findings.push_back(fine("time of day", "it goes; " + dates));
+    findings.push_back(fine("time of day", "it is set; " + dates));
   }
   return findings;
 }

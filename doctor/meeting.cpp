@@ -39,31 +39,31 @@ std::string silence_hint(const Meetings& all, const Meeting& meeting, const Peer
   }
   if (const auto domains = all.elsewhere.find(*peer.address); domains != all.elsewhere.end()) {
     const std::vector<std::string> names(domains->second.begin(), domains->second.end());
-    return "it takes part in " + joined(names) + " only: another --scenario, --only or network there?";
+    return "it takes part in " + joined(names) + " only; check --scenario, --only and --network there";
   }
   const std::string port = fmt::format("UDP port {}", kGreetingPort);
   if (const auto said = meeting.refused.find(*peer.address); said != meeting.refused.end()) {
     return fmt::format("{} there: {}; {}, or a firewall refuses it", port, said->second, kStartThere);
   }
-  return fmt::format("nothing arrives: {}; else a firewall drops UDP (this: port {}), or its network is down",
+  return fmt::format("nothing arrives: {}; otherwise a firewall drops UDP (here port {}), or its network is down",
                      kStartThere, kGreetingPort);
 }
 
 /// Hint why no DDS samples of a peer arrive, although its datagrams do.
 std::string no_dds_hint(const Meeting& meeting, const Acquaintance& other) {
   if (other.last.base != meeting.base) {
-    return fmt::format("its fleet's first domain is {}, ours {}: the same --domain for both", other.last.base,
+    return fmt::format("its fleet's first domain is {}, ours {}: give both hosts the same --domain", other.last.base,
                        meeting.base);
   }
   if (!meeting.address.empty() && !other.at.contains(meeting.address)) {
     return fmt::format("wrong interface: it reaches us at {}, this domain has {}",
                        joined({other.at.begin(), other.at.end()}), meeting.address);
   }
-  std::string hint = fmt::format("UDP arrives, DDS does not: a firewall drops UDP ports {}..{}?",
+  std::string hint = fmt::format("UDP arrives, DDS does not: perhaps a firewall drops UDP ports {}..{}.",
                                  ports_of(meeting.number, 1).first, ports_of(meeting.number, 10).last);
   if (other.last.vendors != meeting.vendors) {
-    hint += fmt::format(" Or its vendor: it has {}, we {}; try the same --dds", joined(other.last.vendors),
-                        joined(meeting.vendors));
+    hint += fmt::format(" Or the vendors differ: it has {}, we have {}; give both hosts the same --dds",
+                        joined(other.last.vendors), joined(meeting.vendors));
   }
   return hint;
 }
@@ -88,23 +88,25 @@ std::pair<Verdict, std::string> judge_heard(const Meetings& all, const Meeting& 
   }
   if (!other.large && meeting.largest > 0) {
     return {Verdict::fail,
-            fmt::format("datagrams of {} bytes do not arrive, small ones do: the way between has a smaller "
+            fmt::format("datagrams of {} bytes do not arrive, small ones do: the network between has a smaller "
                         "MTU; set that of both interfaces to it (ip link set dev IFACE mtu N)",
                         meeting.largest)};
   }
   if (const std::string missing = missing_vendors(other); !missing.empty()) {
-    return {Verdict::fail, "nothing arrives by " + missing + "; its other vendor is heard"};
+    return {Verdict::fail, "nothing arrives over " + missing + ", but messages of its other vendor do"};
   }
   if (!contains(other.last.heard_dds, all.id)) {
     const bool by_udp = contains(other.last.heard_udp, all.id);
-    return {Verdict::warn, std::string("it has not heard us") + (by_udp ? " by DDS, but by UDP" : "") +
-                               ", as far as it said before we ended: see what it finds itself"};
+    return {Verdict::warn, std::string("it has not received our messages") +
+                               (by_udp ? " over DDS, only over UDP" : "") +
+                               ", as far as we know: see the output of `skein doctor net` there"};
   }
   if (std::abs(other.clock_ahead_s) > kClocksAgreeS && mixes_vendors(meeting, other)) {
     return {Verdict::warn,
-            fmt::format("its clock is {:.1f} s {}: between two vendors first samples get lost; set both by "
-                        "NTP",
-                        std::abs(other.clock_ahead_s), other.clock_ahead_s > 0 ? "ahead" : "behind")};
+            fmt::format(
+                "its clock is {:.1f} s {}: two DDS vendors then lose each other's first samples; set both clocks by "
+                "NTP",
+                std::abs(other.clock_ahead_s), other.clock_ahead_s > 0 ? "ahead" : "behind")};
   }
   return {Verdict::ok, {}};
 }

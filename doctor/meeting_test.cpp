@@ -70,7 +70,7 @@ const std::vector<Break>& breaks() {
       {[](Way& w) { w.dds = false, w.at = "10.9.9.9"; }, Verdict::fail, "wrong interface"},
       {[](Way& w) { w.dds = false, w.vendors = {"fastdds"}; }, Verdict::fail, "--dds"},
       {[](Way& w) { w.large = false; }, Verdict::fail, "MTU"},
-      {[](Way& w) { w.hears_us = false; }, Verdict::warn, "not heard us"},
+      {[](Way& w) { w.hears_us = false; }, Verdict::warn, "not received our messages"},
       {[](Way& w) { w.small = w.large = false; }, Verdict::ok, "7390"},
       {[](Way& w) { w.clock_ahead_s = -3.0, w.vendors = {"fastdds"}; }, Verdict::warn, "behind"}};
   return kAll;

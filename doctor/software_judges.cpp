@@ -15,8 +15,8 @@ Finding judge_shared_memory(const SharedMemoryFacts& memory) {
                   memory.writable ? "" : ", but is not writable", memory.segments);
   if (memory.unused == 0) return fine(what, state + "; " + use);
   return warning(what,
-                 fmt::format("{}, {} of which ({:.1f} MB) no process has open that can be seen from here", state,
-                             memory.unused, 1e-6 * static_cast<double>(memory.unused_bytes)),
+                 fmt::format("{}, of which no process visible from here has {} ({:.1f} MB) open", state, memory.unused,
+                             1e-6 * static_cast<double>(memory.unused_bytes)),
                  "when no ROS 2 node runs, in no container that shares it: rm /dev/shm/*fastrtps_* "
                  "/dev/shm/fast_datasharing_*");
 }
@@ -29,7 +29,7 @@ Findings judge_variables(const VariableFacts& variables) {
     const std::string names = joined(variables.ignored);
     findings.push_back(warning(
         "variables", names + " are set; the fleet's programs do not get them, ROS 2 nodes beside them do",
-        "unset " + joined(variables.ignored, " ") + "; say with --domain and --network what the fleet shall have"));
+        "unset " + joined(variables.ignored, " ") + "; set domain and network of the fleet by --domain and --network"));
   }
   if (variables.vendor.empty()) {
     findings.push_back(fine("DDS libraries", "the system's"));
@@ -47,10 +47,9 @@ Finding judge_docker(const DockerFacts& docker) {
   if (!docker.client) return fine(what, "not installed; only containers need it");
   const std::string host = docker.host.empty() ? "" : " at DOCKER_HOST=" + docker.host;
   if (!docker.engine) {
-    return warning(what, "the client has no answer of an engine" + host + ": " + docker.trouble,
-                   docker.host.empty()
-                       ? "only containers need it: start the engine (dockerd), or be in the group docker"
-                       : "only containers need it: start that engine, or unset DOCKER_HOST");
+    return warning(what, "the client gets no answer from an engine" + host + ": " + docker.trouble,
+                   docker.host.empty() ? "only containers need it: start the engine (dockerd), or join the group docker"
+                                       : "only containers need it: start that engine, or unset DOCKER_HOST");
   }
   const std::string engine = "engine " + *docker.engine + host;
   if (!docker.compose) {

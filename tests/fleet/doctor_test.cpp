@@ -77,7 +77,7 @@ TEST_F(Doctor, TooFewOpenFilesFailUnlessARunMayRaiseTheLimit) {
   EXPECT_NE(poor.finding("open files")["mend"].get<std::string>().find("limits.conf"), std::string::npos) << poor.out;
   const Answer low = ask("--json", "ulimit -S -n 60; ");
   EXPECT_EQ(low.verdict("open files"), "ok") << low.out;
-  EXPECT_NE(low.finding("open files")["found"].get<std::string>().find("60 a process"), std::string::npos) << low.out;
+  EXPECT_NE(low.finding("open files")["found"].get<std::string>().find("60 per process"), std::string::npos) << low.out;
 }
 
 TEST_F(Doctor, AMissingInterfaceFailsAsItWouldInARun) {
