@@ -383,7 +383,7 @@ TEST_F(RunCommand, AWarningThatComesLastIsInTheResultToo) {
 TEST_F(RunCommand, AnAgentThatFloodsItsStatusPipeIsNamedAndTheRunGoesOn) {
   options_.planner = "hover,beta=exec:trap '' PIPE; yes | tr -d '\\n' >&3; exit 0";
   EXPECT_EQ(run(), kExitDone) << err_.str();
-  const std::string words = "uav_agent-beta is not listened to any more";
+  const std::string words = "uav_agent-beta: Skein reads no further status from it";
   EXPECT_NE(err_.str().find(words), std::string::npos) << err_.str();
   EXPECT_NE(result()["warnings"].dump().find(words), std::string::npos) << result()["warnings"];
 }

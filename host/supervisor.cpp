@@ -97,8 +97,8 @@ struct Supervisor::Child : StartedProgram {
       events.push_back({Event::Kind::status_line, name, std::exchange(partial_line, {}), {}});
     }
     partial_line += text;
-    const char* excess = partial_line.size() > kLongestStatusLine ? "a line without an end"
-                         : status_bytes > most_status_bytes       ? "more than a report and its news"
+    const char* excess = partial_line.size() > kLongestStatusLine ? "too long a line"
+                         : status_bytes > most_status_bytes       ? "more than the reports of a run need"
                                                                   : nullptr;
     if (excess == nullptr) return;
     status.reset();

@@ -172,7 +172,7 @@ void ProgramOptions::check_out() const {
   std::error_code error;  // e.g. the name is too long
   const auto kind = std::filesystem::status(out, error).type();
   if (kind == std::filesystem::file_type::not_found) refuse("does not exist");
-  if (kind == std::filesystem::file_type::none) refuse("cannot be looked at (" + error.message() + ")");
+  if (kind == std::filesystem::file_type::none) refuse("cannot be read (" + error.message() + ")");
   if (kind != std::filesystem::file_type::directory) refuse("is no folder");
   if (::access(out.c_str(), W_OK | X_OK) != 0) {
     refuse("cannot be written to (" + std::generic_category().message(errno) + ")");

@@ -91,7 +91,7 @@ TEST(Program, WithoutALauncherTheOutputFolderMustExist) {
   EXPECT_EQ(refusal_of_out(missing), "--out " + missing.string() + ": does not exist" + mend);
   EXPECT_EQ(refusal_of_out(file), "--out " + file.string() + ": is no folder" + mend);
   const std::string long_name(300, 'x');
-  EXPECT_EQ(refusal_of_out(long_name), "--out " + long_name + ": cannot be looked at (File name too long)" + mend);
+  EXPECT_EQ(refusal_of_out(long_name), "--out " + long_name + ": cannot be read (File name too long)" + mend);
   EXPECT_EQ(refusal_of_out(missing, 4, 3), "") << "its launcher makes the folder";
   EXPECT_EQ(refusal_of_out(missing, -1, 1), "") << "a launcher gets the report through the pipe";
 }

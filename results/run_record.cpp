@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostOfAMap = 64 << 20;
 
 double sensible(double value) {
-  if (!(std::abs(value) <= kFarthest)) throw std::runtime_error("a number is out of all bounds");
+  if (!(std::abs(value) <= kFarthest)) throw std::runtime_error("a number is out of range");
   return value;
 }
 

@@ -14,7 +14,7 @@ constexpr const char* kScoreColumn = "score";
 double bounded(const CsvTable& table, const char* column) {
   const double value = table.number(column);
   if (std::abs(value) > kFarthest) {
-    table.fail(std::string("column '") + column + "': '" + table.text(column) + "' is out of all bounds");
+    table.fail(std::string("column '") + column + "': '" + table.text(column) + "' is out of range");
   }
   return value;
 }

@@ -67,7 +67,7 @@ void read_tracking(const std::filesystem::path& file, TrackingTable& table) {
   const auto step = [&rows](const char* column, double size) {
     const double steps = rows.number(column) / size;
     if (steps < 0.0 || steps > 1e9) {  // a bin's numbers are of type int
-      rows.fail(std::string("column '") + column + "': '" + rows.text(column) + "' is out of all bounds");
+      rows.fail(std::string("column '") + column + "': '" + rows.text(column) + "' is out of range");
     }
     return static_cast<int>(std::lround(steps));
   };

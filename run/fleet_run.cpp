@@ -169,7 +169,7 @@ void FleetRun::on_status(const Event& event) {
 
 /// The status pipe of a program that writes too much is closed; the program flies on.
 void FleetRun::on_cut_off(const Event& event) {
-  facts_.warnings.push_back(event.program + " is not listened to any more: " + event.line);
+  facts_.warnings.push_back(event.program + ": Skein reads no further status from it: " + event.line);
   view_.message(facts_.warnings.back());
 }
 
@@ -204,7 +204,7 @@ void FleetRun::on_exit(Event event) {
 void FleetRun::on_engine_lost() {
   if (anything_failed() && ending_) return;  // all followers notice, one after the other
   failed_ = true;
-  facts_.warnings.push_back("the Docker engine does not answer any more: what became of the containers is not known");
+  facts_.warnings.push_back("the Docker engine does not answer any more, so the state of the containers is not known");
   view_.message(facts_.warnings.back() + "; the run ends here");
   end_all();
 }
@@ -307,7 +307,7 @@ void FleetRun::settle(const std::string& program) {
   try {
     host_->start(spec);
   } catch (const std::exception& error) {
-    return complain(program, std::string("its books cannot be settled: ") + error.what());
+    return complain(program, std::string("cannot be started to write the report from its journal: ") + error.what());
   }
   const auto take_report = [this](const std::vector<Event>& events) {
     for (const Event& event : events) {
@@ -325,7 +325,7 @@ void FleetRun::tell_lost(const std::string& member) {
 
 void FleetRun::end_stragglers() {
   for (const std::string& program : host_->running()) {
-    if (!is_exec(plan_, program) && !facts_.interrupted) complain(program, "not leaving after the run's end");
+    if (!is_exec(plan_, program) && !facts_.interrupted) complain(program, "did not end after the run's end");
   }
   end_all();
 }
