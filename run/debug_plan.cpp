@@ -30,7 +30,8 @@ std::vector<Debuggee> debuggees(const FleetPlan& plan) {
   for (const Debuggee& one : all) {
     const std::string why = "--debug " + one.member;
     if (plan.options.secure && one.how != Debuggee::How::by_hand) {
-      throw InputError(why + ": with --secure say no more than the UAV, and start it by the command that is printed");
+      throw InputError(why +
+                       ": with --secure, leave out =TOOL, and start the debugger with the command that Skein prints");
     }
     if (plan.options.break_at_s && one.program == programs::kSimServer) {
       throw InputError(
@@ -42,7 +43,7 @@ std::vector<Debuggee> debuggees(const FleetPlan& plan) {
       throw InputError(why + "=pdb: only a planner in Python (--planner py:FILE) has pdb; gdb is for all others");
     }
     if (one.how == Debuggee::How::wait && is_exec(plan, one.program)) {
-      throw InputError(why + "=wait: a command of yours does not know how to wait; let it have gdb or gdbserver:PORT");
+      throw InputError(why + "=wait: a command of yours (exec:) cannot wait for a debugger; use gdb or gdbserver:PORT");
     }
   }
   return all;
@@ -58,7 +59,9 @@ std::map<std::string, std::string> log_levels(const FleetPlan& plan) {
     if (std::ranges::find(known, level) == known.end()) {
       throw InputError("--log " + value + ": '" + level + "' is not a level; " + suggestion(level, known));
     }
-    if (is_exec(plan, program)) throw InputError("--log " + value + ": a command of yours logs as it likes");
+    if (is_exec(plan, program))
+      throw InputError("--log " + value +
+                       ": a command of yours (exec:) has no such level, because it writes its own log");
     if (!levels.emplace(program, level).second) {
       throw InputError("--log " + value + ": " + value.substr(0, cut) + " is named twice");
     }

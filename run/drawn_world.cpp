@@ -30,7 +30,7 @@ fs::path folder_of(const std::string& world) {
   const auto cache = user_cache_folder();
   if (!cache) {
     throw InputError("the scenario '" + world +
-                     "' is drawn once and kept: set HOME, or XDG_CACHE_HOME, to a folder where that can be");
+                     "' is generated once and stored in a cache: set HOME or XDG_CACHE_HOME to a folder for it");
   }
   return *cache / "worlds" / ("grammar-" + std::to_string(kWorldGrammar)) / world;
 }

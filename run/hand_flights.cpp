@@ -43,10 +43,11 @@ void check_hands(const std::vector<UavPlanner>& planners, bool watched, bool ste
   const std::vector<std::string> uavs = flown_by_hand(planners);
   if (uavs.empty() || watched) return;
   const std::string& uav = uavs.front();
-  throw InputError("--planner " + uav + "=" + kHandPlanner + ": somebody must fly " + joined(uavs) +
-                   " on the page of `skein run --view`; to fly again what somebody flew, name what that run kept: "
-                   "--planner " +
-                   uav + "=" + kHandPlanner + ":RUN/hand-" + uav + ".csv");
+  throw InputError(
+      "--planner " + uav + "=" + kHandPlanner + ": a person must fly " + joined(uavs) +
+      " on the page of `skein run --view`; to repeat an earlier flight by hand, name the file of that run: "
+      "--planner " +
+      uav + "=" + kHandPlanner + ":RUN/hand-" + uav + ".csv");
 }
 
 std::string planners_repeated(const std::string& text, const std::vector<std::string>& fleet,

@@ -52,8 +52,7 @@ void check_kind(const std::filesystem::path& dir) {
   std::error_code error;  // e.g. the name is too long, or links form a circle
   const auto kind = std::filesystem::status(dir, error).type();
   if (kind == std::filesystem::file_type::none) {
-    throw InputError("--out " + dir.string() + ": cannot be looked at (" + error.message() +
-                     "); choose another folder");
+    throw InputError("--out " + dir.string() + ": cannot be read (" + error.message() + "); choose another folder");
   }
   if (kind != std::filesystem::file_type::directory && kind != std::filesystem::file_type::not_found) {
     throw InputError("--out " + dir.string() + ": is not a folder");
@@ -240,7 +239,7 @@ void ResultsDir::keep_room() const {
   if (file >= 0) ::close(file);
   if (reason != ENOSPC && reason != EDQUOT && reason != EFBIG) return;  // not every file system supports the call
   give_room();
-  throw InputError("--out " + path_.string() + ": no room for a result there (" +
+  throw InputError("--out " + path_.string() + ": the disk has no room for a result (" +
                    std::generic_category().message(reason) + "); choose another folder");
 }
 

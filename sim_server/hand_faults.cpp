@@ -54,7 +54,7 @@ std::string HandFaults::obey(const view::FaultOrder& order, Tick next) {
 }
 
 std::string HandFaults::begin(const view::FaultOrder& order, Tick next) {
-  if (faults_.size() >= kMost) return fmt::format("there were {} faults by hand, and there may be no more", kMost);
+  if (faults_.size() >= kMost) return fmt::format("a run can have at most {} faults by hand", kMost);
   Fault fault{.at_s = file_time_s(next), .until_s = {}, .action = *order.begins};
   if (order.for_s) {
     const Tick period = scenario_.exchange_ticks();
