@@ -149,8 +149,8 @@ void compare(Without& without, const fs::path& there, const fs::path& here, doub
   if (with_s && less_s) without.seconds = *with_s - *less_s;
   const auto difference = results::first_difference(there, here);
   if (!difference) return;
-  without.parts = fmt::format("the runs part at step {} ({} s): {}", difference->step, number_text(difference->time_s),
-                              joined(difference->fields));
+  without.parts = fmt::format("the runs first differ at step {} ({} s): {}", difference->step,
+                              number_text(difference->time_s), joined(difference->fields));
 }
 
 bool is_flown(const TrialOutcome& outcome) { return !outcome.findings.empty(); }
@@ -160,7 +160,7 @@ std::string refusal(const fs::path& dir) { return joined(last_lines(dir / run_fo
 
 void print(const std::vector<Without>& all, const TrialOutcome& outcome, const Subject& subject,
            const Console& console) {
-  console.out << fmt::format("as it was: score {:.3f}\n", outcome.score);
+  console.out << fmt::format("the run as it was flown: score {:.3f}\n", outcome.score);
   const auto tell_property = [&](const TrialOutcome& one, const char* indent) {
     const TrialFinding* finding = subject.property ? one.find(*subject.property) : nullptr;
     if (finding != nullptr) {
@@ -172,7 +172,8 @@ void print(const std::vector<Without>& all, const TrialOutcome& outcome, const S
   std::string no_difference;
   if (!all.empty())
     console.out
-        << "gain without each of these: points of the score, and how much sooner the lower final score is reached\n";
+        << "what the run gains without each of these: points of the score, and how much sooner it reaches the lower of "
+           "the two final scores\n";
   for (const Without& without : all) {
     if (without.parts.empty()) {
       no_difference += "            " + without.what + "\n";
@@ -183,7 +184,8 @@ void print(const std::vector<Without>& all, const TrialOutcome& outcome, const S
     console.out << "  without " << without.what << "\n            " << without.parts << '\n';
     tell_property(without.outcome, "            ");
   }
-  if (!no_difference.empty()) console.out << "the same run, bit for bit, without any one of these:\n" << no_difference;
+  if (!no_difference.empty())
+    console.out << "the run stays the same, bit for bit, without any one of these:\n" << no_difference;
   console.out << std::flush;
 }
 
@@ -220,9 +222,9 @@ void add_blame(CLI::App& app, BlameOptions& blame) {
 int blame(const BlameOptions& options, const Console& console) {
   const Subject subject = subject_of(options);
   if (subject.faults.empty() && options.messages.empty()) {
-    throw InputError(
-        options.what.string() +
-        ": it has no faults to blame; --messages FROM UNTIL flies it without the messages of one link at a time");
+    throw InputError(options.what.string() +
+                     ": this run has no faults; with --messages FROM UNTIL, Skein flies it without the messages of one "
+                     "link at a time");
   }
   HuntPlan plan = plan_of(options, subject);
   check_window(options.messages, plan.fleet.scenario.duration_s);

@@ -225,8 +225,8 @@ class PlannerCheck {
   void tell(RunOptions run, const fs::path& first, const Surroundings& surroundings) {
     if (fs::exists(*run.out / run_folder::kDigests)) {
       if (const auto difference = results::first_difference(first, *run.out)) {
-        console_.out << "    the runs part at step " << difference->step << " (" << number_text(difference->time_s)
-                     << " s): " << joined(difference->fields) << '\n';
+        console_.out << "    the runs first differ at step " << difference->step << " ("
+                     << number_text(difference->time_s) << " s): " << joined(difference->fields) << '\n';
       }
     }
     run.replay = ReplayOf{first / run_folder::kRecording, std::nullopt, {}, {}};

@@ -182,7 +182,7 @@ void compare_recordings(const DiffOptions& options, std::vector<std::string>& fo
     if (then == now) continue;
     found.push_back(at + topic + ": " +
                     (then.size() == now.size()
-                         ? counted(then.size(), "message") + " of other content"
+                         ? counted(then.size(), "message") + " with different content"
                          : counted(then.size(), "message") + ", and " + counted(now.size(), "message")));
   }
 }
@@ -230,10 +230,10 @@ int diff_runs(const DiffOptions& options, const Console& console) {
     require_whole_recordings(options);
   }
   if (difference && !found.empty()) console.out << "besides:\n";
-  if (!difference && !found.empty()) console.out << "the digests are the same, but not what else the runs left:\n";
+  if (!difference && !found.empty()) console.out << "the digests are the same, but other results differ:\n";
   for (const std::string& one : found) console.out << "  " << one << '\n';
   if (!difference && found.empty()) {
-    console.out << (inputs.empty() ? "the runs are the same\n" : "what they left is the same\n");
+    console.out << (inputs.empty() ? "the runs are the same\n" : "the results are the same\n");
   }
   for (const std::string& note : notes) console.out << note << '\n';
   console.out << std::flush;

@@ -84,7 +84,7 @@ TEST_F(DiffCommand, DifferentInputsAreReportedFirst) {
   write("a", "result.json", R"({"status": "completed", "seed": 1, "conditions": "breeze"})");
   write("b", "result.json", R"({"status": "completed", "seed": 2, "conditions": "harsh"})");
   EXPECT_EQ(diff(), kExitCheckFailed);
-  EXPECT_EQ(out_.str(), inputs + "what they left is the same\n");
+  EXPECT_EQ(out_.str(), inputs + "the results are the same\n");
   write("b", "digests.csv", "k,digest\n0,aa\n1,cc\n");
   EXPECT_EQ(diff(), kExitCheckFailed);
   EXPECT_TRUE(out_.str().starts_with(inputs + "first difference at step 1 (")) << out_.str();
@@ -97,7 +97,7 @@ TEST_F(DiffCommand, ObjectsAreComparedKeyByKey) {
   write("b", "result.json", scores + R"(3.5, "zz": 0.5}})");
   EXPECT_EQ(diff(), kExitCheckFailed);
   EXPECT_EQ(out_.str(),
-            "the digests are the same, but not what else the runs left:\n"
+            "the digests are the same, but other results differ:\n"
             "  result.json: score_by_uav.zulu 2.5, and 3.5\n"
             "  result.json: score_by_uav.zz null, and 0.5\n");
 }

@@ -57,7 +57,7 @@ view::Parting parting_of(const fs::path& a, const fs::path& b) {
 }
 
 std::string said_of(const view::Parting& parting) {
-  if (!parting.unknown.empty()) return "where they part is not known: " + parting.unknown;
+  if (!parting.unknown.empty()) return "where they first differ is not known: " + parting.unknown;
   if (!parting.time_s) return "the runs are the same, step by step";
   return fmt::format("first difference at {:.2f} s: {}", *parting.time_s, joined(parting.fields, ", "));
 }

@@ -56,7 +56,7 @@ void check_flies_the_run(const RunOptions& options, const Scenario& scenario, co
   compare("UAVs", joined(fleet_of(result)), joined(scenario.uav_names()));
   compare("seed", result.contains("seed") ? result["seed"].dump() : "", std::to_string(options.seed));
   if (differences.empty()) return;
-  throw InputError(run.string() + ": its command flies another run now: " + joined(differences, "; ") +
+  throw InputError(run.string() + ": the command of this run now flies a different run: " + joined(differences, "; ") +
                    where_to_start(result));
 }
 

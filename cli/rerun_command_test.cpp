@@ -71,7 +71,7 @@ TEST_F(OptionsOfRun, AreRefusedIfTheyRunAStationProgramThatTheFleetDoesNotHave) 
 }
 
 TEST_F(OptionsOfRun, AreRefusedIfTheCommandFliesAnotherScenarioFleetOrSeed) {
-  const std::string begin = run_.string() + ": its command flies another run now: ";
+  const std::string begin = run_.string() + ": the command of this run now flies a different run: ";
   EXPECT_EQ(refusal("skein run " + small_ + " --seed 4").find(begin + "seed 3, now 4. "), 0U);
   EXPECT_EQ(refusal("skein run " + small_ + " --seed 3 --uavs 1").find(begin + "UAVs alpha, beta, now "), 0U);
   EXPECT_EQ(

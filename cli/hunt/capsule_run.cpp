@@ -33,9 +33,10 @@ void fly_aside(RunOptions run, const std::string& how, const Console& console, c
   run.out = scratch.path() / "run";
   run.check = run.report = false;
   std::ostringstream unseen;
-  console.err << "second run, " << how << ", only to compare with; its score is not the find's" << std::endl;
+  console.err << "second run, " << how << ", for comparison only; the score of the find is that of the first run"
+              << std::endl;
   if (run_fleet(run, {unseen, console.err, false}) == kExitInterrupted) throw Interrupted{};
-  console.err << "the second run is over and not kept" << std::endl;
+  console.err << "the second run has ended; Skein compares it with the first and deletes its files" << std::endl;
   look(*run.out);
 }
 
@@ -54,7 +55,7 @@ Replayed judge_property(const FaultTest& test, const fs::path& dir, const Consol
               [&](const fs::path& aside) { without = results::read_run(aside); });
   }
   signals::FolderSignals signals(run, test.plan.scenario, without ? &*without : nullptr, &test.plan.faults);
-  Replayed verdict{false, "nothing is asked"};
+  Replayed verdict{false, "the capsule's properties have none of this name"};
   for (const signals::PropertyFinding& found : signals::judge_properties(test.property_set, signals)) {
     if (found.name != test.capsule->property) continue;
     verdict = {found.verdict.outcome == properties::Verdict::Outcome::fails, found.text()};
@@ -86,18 +87,19 @@ void check_options(const RunOptions& options) {
   for (const auto& [name, value] : given.items()) {
     if (kTaken.contains(name) || value == value_or(usual, name.c_str(), nullptr)) continue;
     if (kDebugging.contains(name)) {
-      throw InputError("--" + name +
-                       " does not go with a capsule: fly the capsule, then its results folder again with " +
-                       "`skein rerun FOLDER --uav UAV --debug UAV`");
+      throw InputError("--" + name + " cannot be used with a capsule: fly the capsule, then its results folder again " +
+                       "with `skein rerun FOLDER --uav UAV --debug UAV`");
     }
-    throw InputError("--" + name + " does not go with a capsule, which has all that is flown: change it in a copy of " +
-                     options.scenario);
+    throw InputError("--" + name + " cannot be used with a capsule, which itself defines the flight; change the " +
+                     "flight in a copy of " + options.scenario);
   }
   const std::array others = {std::pair("--place", options.place.at.has_value() || options.place.print),
                              std::pair("--ros-env", options.ros_env.has_value()),
                              std::pair("--view", options.view.at.has_value())};
   for (const auto& [name, is_given] : others) {
-    if (is_given) throw InputError(std::string(name) + " does not go with a capsule: it flies on this host, unwatched");
+    if (is_given)
+      throw InputError(std::string(name) +
+                       " cannot be used with a capsule, which flies on this host and without a page");
   }
 }
 
@@ -112,16 +114,16 @@ bool is_capsule(const RunOptions& options) {
 std::string comparison_text(const CapsuleMark& mark, const std::string& digest) {
   const std::string found = "found with skein " + mark.skein + (mark.build.empty() ? "" : ", build " + mark.build);
   const std::string here = "this build (skein " SKEIN_VERSION ") ";
-  const std::string now = digest.empty() ? "without a digest" : "digest " + digest;
+  const std::string now = digest.empty() ? "no digest" : "the digest " + digest;
   if (mark.digest.empty() && mark.property == kCompletes) {
-    return found + ", a run that came to no digest; this one is " + now;
+    return found + ", in a run without a digest; this run has " + now;
   }
   if (mark.digest.empty()) {
-    return found + "; the digest of that run is not known, so whether " + here +
-           "flies it as it was found cannot be said: " + now;
+    return found + "; the digest of that run is not known, so Skein cannot tell whether " + here +
+           "repeats it: this run has " + now;
   }
   if (digest == mark.digest) return "this is the run that was found, bit for bit (" + found + ")";
-  return found + "; " + here + "flies it otherwise: " + now + ", then " + mark.digest;
+  return found + "; " + here + "flies it differently: this run has " + now + ", and that one had " + mark.digest;
 }
 
 int run_capsule(const RunOptions& options, const Console& console) {

@@ -86,7 +86,7 @@ void Finds::go_into(const Failure& failure, const Trial& trial, const TrialOutco
     return;
   }
   console_.err << "case " << failure.index << " breaks " << failure.property << " with " << trial.faults.size()
-               << " faults; making it smaller" << std::endl;
+               << " faults; minimising it" << std::endl;
   make_small(find, trial, outcome);
   write(find, of);
   finds_.push_back(std::move(find));
@@ -145,8 +145,8 @@ void Finds::confirm(Find& find, const TrialOutcome& outcome) {
   find.over_dds = over_dds.digest == outcome.digest && over_dds.fails(find.property);
   if (find.over_dds) return;
   find.property = kSameDigest;
-  find.told = "over DDS it is another run: digest " + (over_dds.digest.empty() ? "none" : over_dds.digest) + ", not " +
-              outcome.digest + "; in one process " + find.told;
+  find.told = "the flight has the digest " + (over_dds.digest.empty() ? "none" : over_dds.digest) + " over DDS, and " +
+              outcome.digest + " in one process: " + find.told;
 }
 
 /// Writes the notes last, because made_before() takes a find without notes as missing.

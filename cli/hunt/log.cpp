@@ -85,11 +85,11 @@ HuntLog::HuntLog(const fs::path& dir, const Json& settings, bool force)
   const Json then = read_json(dir / kSettingsFile);
   if (then.is_null() && fs::exists(dir / kSettingsFile) && !force) {
     throw InputError((dir / kSettingsFile).string() +
-                     ": damaged: no JSON; choose another --out, or begin anew with --force");
+                     ": is damaged: it is not JSON; choose another --out, or start a new hunt there with --force");
   }
   if (!then.is_null() && then != settings && !force) {
     throw InputError(dir.string() + " holds another hunt, which differs in " + differing_keys(then, settings) +
-                     "; choose another --out, or begin anew there with --force");
+                     "; choose another --out, or start a new hunt there with --force");
   }
   if (then.is_null() || force) {
     if (fs::exists(dir / kSettingsFile)) kept_ = keep_finds(dir);
@@ -115,8 +115,8 @@ void HuntLog::read_lines() {
     const std::size_t end = number + HuntSearch::kMostLag;
     if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= end || !flown.is_string() || !outcome) {
       throw InputError(file_.string() + ":" + std::to_string(number) +
-                       ": damaged: no case of this hunt is to be read there; take the line out, and its case is flown "
-                       "again, or begin anew with --force");
+                       ": is damaged: this line is not a case of this hunt; delete the line, and Skein flies its case "
+                       "again, or start a new hunt with --force");
     }
     keep(index.get<std::size_t>(), flown.get<std::string>(), std::move(*outcome));
   }
@@ -128,13 +128,15 @@ void HuntLog::read_lines() {
 
 void HuntLog::check(std::size_t index, const std::string& flown) const {
   if (index >= outcomes_.size() || !outcomes_[index] || flown_[index] == flown) return;
-  throw InputError(file_.string() + ": case " + std::to_string(index) +
-                   " was another one then; begin anew with --force");
+  throw InputError(
+      file_.string() + ": case " + std::to_string(index) +
+      " was flown with other faults or settings than this hunt now has for it; start a new hunt with --force");
 }
 
 void HuntLog::add(std::size_t index, const std::string& flown, TrialOutcome outcome) {
   lines_ << json_text({{"case", index}, {"flown", flown}, {"outcome", outcome.to_json()}}) << std::endl;
-  if (!lines_) throw std::runtime_error(file_.string() + ": cannot be written; the same command goes on from there");
+  if (!lines_)
+    throw std::runtime_error(file_.string() + ": cannot be written; the same command continues the hunt from there");
   keep(index, flown, std::move(outcome));
 }
 

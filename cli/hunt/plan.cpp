@@ -179,9 +179,9 @@ HuntPlan plan_hunt(const HuntOptions& options) {
   plan.space.heal_by_s = std::floor(duration_s - deadline_s - kAfterDeadline_s);
   if (plan.space.heal_by_s < kLeastForFaults_s) {
     throw InputError("--duration: a mission of " + number_text(duration_s) +
-                     " s has no time for faults: what must hold after them has up to " + number_text(deadline_s) +
-                     " s, and the last " + number_text(kAfterDeadline_s) +
-                     " s are for coming home; the shortest mission for these properties is " +
+                     " s has no time for faults: properties that must hold after the last fault have up to " +
+                     number_text(deadline_s) + " s, and the last " + number_text(kAfterDeadline_s) +
+                     " s are for the flight home; the shortest mission for these properties is " +
                      number_text(std::ceil(deadline_s + kAfterDeadline_s + kLeastForFaults_s)) + " s");
   }
   plan.out = options.out.value_or(

@@ -110,7 +110,7 @@ void TrialFlights::fly_round(const std::vector<std::size_t>& numbers, const std:
     if (!controller.fly()) throw Interrupted{};
     for (const auto& [unit, words] : controller.failed()) {
       throw InputError("unit " + std::to_string(unit) + " of this round was not flown: " + words +
-                       "\nThe same command goes on.");
+                       "\nThe same command continues the hunt.");
     }
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) {

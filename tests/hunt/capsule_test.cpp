@@ -68,7 +68,7 @@ TEST_F(Capsule, RefusesOptionsThatWouldChangeTheFlight) {
     ChildProcess& run = start_program(
         "refused", joined({program("skein"), "run", capsule, "--out", folder() / "none"}, more), environment);
     EXPECT_EQ(run.wait().code, 2) << more[0] << run.out() << run.err();
-    EXPECT_NE(run.err().find(more[0] + " does not go with a capsule"), std::string::npos) << run.err();
+    EXPECT_NE(run.err().find(more[0] + " cannot be used with a capsule"), std::string::npos) << run.err();
   };
   for (const Arguments& more : refused) expect_refusal(more, {});
   for (const char* usual : {"20", "30"}) expect_refusal({"--duration", "20"}, {{"SKEIN_DURATION", usual}});

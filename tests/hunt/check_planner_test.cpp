@@ -78,13 +78,13 @@ TEST_F(CheckPlanner, ARepeatablePlannerPassesInAllSurroundings) {
 TEST_F(CheckPlanner, StateThatOutlivesARestartInOneProcessIsNamed) {
   const std::set<std::string> over_dds = {"cyclonedds", "fastdds", "chaos"};
   expect_different("planted:defect=undying_counter", {{}, over_dds},
-                   {"the runs part at step ", "jurong first differs at 4.00 s on /jurong/",
+                   {"the runs first differ at step ", "jurong first differs at 4.00 s on /jurong/",
                     "usually it is something that UAVs share in one process"});
 }
 
 TEST_F(CheckPlanner, APlannerThatReadsTheCalendarIsNamed) {
   expect_different("planted:defect=reads_calendar", {{"clock"}, {"clock"}},
-                   {"the runs part at step ", "jurong first differs at ", "usually it is the wall clock\n"});
+                   {"the runs first differ at step ", "jurong first differs at ", "usually it is the wall clock\n"});
 }
 
 TEST_F(CheckPlanner, APlannerInPythonThatDependsOnTheOrderOfASetIsNamed) {

@@ -262,7 +262,7 @@ struct Blamed {
 
 std::map<std::string, Blamed> blamed(const std::string& said) {
   static const std::regex entry(
-      R"(([+-][0-9.]+) points(?:, ([+-][0-9.]+) s)?  without (.*)\n +the runs part at step (\d+) )");
+      R"(([+-][0-9.]+) points(?:, ([+-][0-9.]+) s)?  without (.*)\n +the runs first differ at step (\d+) )");
   std::map<std::string, Blamed> all;
   for (std::sregex_iterator at(said.begin(), said.end(), entry), end; at != end; ++at) {
     Blamed& one = all[(*at)[3]];
@@ -307,7 +307,8 @@ TEST_F(HuntCommands, BlameReportsTheNumbersOfTheSameFlightsFlownIndividually) {
       call({"blame", with.dir(), "--agent", helper_program("planted_agent"), "--out", folder() / "blame"});
   ASSERT_EQ(said.code, 0) << said.err;
   std::smatch as_it_was;
-  ASSERT_TRUE(std::regex_search(said.out, as_it_was, std::regex(R"(^as it was: score ([0-9.]+)\n)"))) << said.out;
+  ASSERT_TRUE(std::regex_search(said.out, as_it_was, std::regex(R"(^the run as it was flown: score ([0-9.]+)\n)")))
+      << said.out;
   EXPECT_NEAR(std::stod(as_it_was[1]), score, 0.0005);
   const std::map<std::string, Blamed> all = blamed(said.out);
   const std::string same = said.out.substr(std::min(said.out.size(), said.out.find("the same run, bit for bit")));
