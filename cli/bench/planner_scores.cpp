@@ -127,7 +127,7 @@ void print_planner_scores(std::ostream& out, const std::vector<PlannerScore>& be
       out << fmt::format("{:<12}{:<14}{:>8}   only in the table before\n", key.first, key.second, sum.only_before);
     }
   }
-  out << "sums of scores; frozen: UAVs that did less than the least amount of work in a minute with some open\n";
+  out << "sums of scores; frozen: UAVs that did almost no work for a minute although there was work for them\n";
 }
 
 }  // namespace skein::cli

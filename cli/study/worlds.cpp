@@ -82,7 +82,7 @@ void print_worlds(std::ostream& out, const Study& study) {
                        report::shortened(study.planners[p], kLongestPlanner), flights, spread.median,
                        tenth_percentile(shares), spread.min, frozen, idle_s, waiting_s, collisions);
   }
-  out << "frozen: flights in which a UAV did less than the least amount of work in a minute with some open\n"
+  out << "frozen: flights in which a UAV did almost no work for a minute although there was work for it\n"
          "idle: time of all UAVs without work, less excused waiting; waiting: for others, as planners report it\n\n"
          "the worst flights, and how to repeat them\n";
   for (const FlightEntry* flight : worst_flights(study, kWorst)) out << text_of(study, *flight);

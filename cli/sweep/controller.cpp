@@ -373,7 +373,7 @@ std::string SweepController::text_of_checks() const {
   if (checks == 0) return "no flight was flown again on a second node";
   const std::string flown = counted(checks, "flight") + " flown again elsewhere, ";
   if (different == 0) return flown + "each with the same digest";
-  return flown + fmt::format("{} with another digest: which node is wrong shows when the study goes on", different);
+  return flown + fmt::format("{} with another digest: continue the study to find out which node is wrong", different);
 }
 
 void SweepController::tell_progress() {

@@ -81,7 +81,7 @@ StudyOutcomes outcomes_of(const StudyPlan& plan, const SweepController& controll
 }
 
 std::string words_of(std::size_t unit, const std::string& last_words) {
-  return fmt::format("unit {} was not flown to its end{}", unit, last_words.empty() ? "" : ": " + last_words);
+  return fmt::format("unit {} did not complete{}", unit, last_words.empty() ? "" : ": " + last_words);
 }
 
 /// Gives a problem to all flights without an outcome whose unit is not over.
@@ -113,7 +113,7 @@ StudyOutcomes fly_sweep(const StudyPlan& plan, const Console& console) {
   SweepController controller(folder, *engine, here, console.err);
   controller.plan(sweep_plan(plan, folder), ::getenv(kMergeVariable) == nullptr);
   write_fly_script(folder, plan.out, fs::current_path(), plan.options.jobs);
-  console.err << fmt::format("{} units of up to {} flights", controller.settings().units(),
+  console.err << fmt::format("the study has {} units of up to {} flights each", controller.settings().units(),
                              controller.settings().sizes.size)
               << std::endl;
   const bool all = controller.fly();
@@ -137,7 +137,7 @@ StudyOutcomes tell_sweep(const StudyPlan& plan, const Console& console) {
   StudyOutcomes outcomes = outcomes_of(plan, controller);
   for (const auto& [index, what] : controller.lost()) {
     if (index < outcomes.flights.size())
-      outcomes.flights[index] = {std::nullopt, what + "; flown again when the study goes on"};
+      outcomes.flights[index] = {std::nullopt, what + "; Skein flies it again when you continue the study"};
   }
   const std::vector<EngineJob> jobs = engine->jobs();
   std::set<std::size_t> held;
@@ -145,8 +145,8 @@ StudyOutcomes tell_sweep(const StudyPlan& plan, const Console& console) {
   const auto there =
       std::ranges::count_if(outcomes.flights, [](const StudyOutcome& o) { return o.figures.has_value(); });
   const std::size_t units = controller.settings().units(), open = controller.failed().size();
-  console.out << fmt::format("{} of {} flights are there; {} of {} units are over, {} are with the engine\n", there,
-                             plan.flights.size(), units - open, units, held.size());
+  console.out << fmt::format("{} of {} flights are complete; {} of {} units have ended, {} are queued or running\n",
+                             there, plan.flights.size(), units - open, units, held.size());
   for (std::size_t i = 0; i < std::min(jobs.size(), kMostTold); ++i) {
     console.out << fmt::format("unit {}: {}\n", jobs[i].unit, jobs[i].state);
   }

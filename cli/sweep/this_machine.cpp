@@ -51,10 +51,11 @@ class Likeness {
     const Json now = made_under_.of(plan_fleet(run, program_dir()));
     std::vector<std::string> what;
     const auto differs = [&](const char* key) { return value_or(now, key, nullptr) != value_or(then, key, nullptr); };
-    if (differs("skein_version") || differs("programs")) what.emplace_back("the programs are of another build");
-    if (differs("agent")) what.emplace_back("the agent program is of another build");
-    if (differs("input")) what.emplace_back("the generated world or a file of the scenario differs");
-    if (what.empty() && now != then) what.emplace_back("the flight itself would differ: " + now.dump());
+    if (differs("skein_version") || differs("programs"))
+      what.emplace_back("the programs here are not of the build that flies the study");
+    if (differs("agent")) what.emplace_back("the agent program here is not of the build that flies the study");
+    if (differs("input")) what.emplace_back("the generated world or a file of the scenario differs here");
+    if (what.empty() && now != then) what.emplace_back("the flight here would have other settings: " + now.dump());
     return what.empty() ? "" : joined(what, "; ") + " (" + run.scenario + ", " + run.planner + ")";
   } catch (const InputError& error) {
     return error.what();
@@ -102,7 +103,7 @@ int run_unit(const UnitOptions& options, const Console& console) try {
   console.err << node_name() << ": " << trouble.what() << std::endl;
   return kExitProcessFailed;
 } catch (const Interrupted&) {
-  console.err << node_name() << ": told to end; the flights until now stay" << std::endl;
+  console.err << node_name() << ": ended by a signal; the study keeps the flights completed so far" << std::endl;
   return kExitInterrupted;
 }
 

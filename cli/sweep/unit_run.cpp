@@ -40,7 +40,8 @@ class UnitRun {
  private:
   void check_still_wanted() const {
     const auto now = folder_.settings();
-    if (!now || now->token != settings_.token) throw NodeTrouble("the study was planned anew: this unit is not wanted");
+    if (!now || now->token != settings_.token)
+      throw NodeTrouble("the study has been planned again since: this unit is no longer needed");
     if (const auto reason = folder_.quarantined(node_.name)) {
       throw NodeTrouble("no result of the node " + node_.name + " counts: " + *reason);
     }
@@ -147,7 +148,8 @@ class UnitRun {
     const std::string again = digest_here(folder_, flight, node_);
     check_still_wanted();
     folder_.write_check(settings_.token, {flight.index, node_.name, again, first->node, digest});
-    say_ << flight.dir.string() << ": flown again, " << (again == digest ? "the same" : "and another one") << std::endl;
+    say_ << flight.dir.string() << ": flown again, "
+         << (again == digest ? "with the same digest" : "with another digest") << std::endl;
   }
 
   const SweepFolder& folder_;

@@ -115,7 +115,7 @@ TEST_F(Sweep, AJobMergesADetachedStudyAlthoughTasksAreKilled) {
   ChildProcess& status =
       start_program("status", {program("skein"), "contest", "--status", folder() / "detached"}, with);
   ASSERT_NE(status.wait().code, 2) << status.err();
-  EXPECT_NE(status.out().find(" of 12 flights are there; "), std::string::npos) << status.out();
+  EXPECT_NE(status.out().find(" of 12 flights are complete; "), std::string::npos) << status.out();
   ASSERT_TRUE(eventually([&] { return slurm_is_idle(); })) << slurm_jobs();
   expect_as_plain("detached");
 }
@@ -128,7 +128,8 @@ TEST_F(Sweep, ATimeLimitKeepsCompleteFlights) {
   ASSERT_TRUE(eventually([&] { return flown("cut") >= 1; })) << study.err();
   write("slurm/time is over", "");
   ASSERT_EQ(study.wait().code, 0) << study.err() << logs("cut");
-  EXPECT_NE(logs("cut").find("told to end; the flights until now stay"), std::string::npos) << logs("cut");
+  EXPECT_NE(logs("cut").find("ended by a signal; the study keeps the flights completed so far"), std::string::npos)
+      << logs("cut");
   expect_as_plain("cut");
   EXPECT_TRUE(fs::is_empty(folder() / "cut/sweep/air"));
 }
@@ -158,7 +159,8 @@ TEST_F(Sweep, AUnitWithAnotherBuildIsRefused) {
   ChildProcess& unit =
       start_program("unit", {program("skein"), "--unit", folder() / "builds", "0"}, {{"SKEIN_BIN_DIR", bin}});
   EXPECT_EQ(unit.wait().code, 3);
-  EXPECT_NE(unit.err().find("the programs are of another build"), std::string::npos) << unit.err();
+  EXPECT_NE(unit.err().find("the programs here are not of the build that flies the study"), std::string::npos)
+      << unit.err();
   EXPECT_EQ(flown("builds"), 0U);
 }
 

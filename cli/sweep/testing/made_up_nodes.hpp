@@ -84,7 +84,9 @@ class MadeUpWorld {
       step();
       return ExitStatus{.code = fails(flight.index) ? 3 : 0};
     };
-    node.unlike = [&of](const SweepFlight&) { return of.other_build ? "the programs are of another build" : ""; };
+    node.unlike = [&of](const SweepFlight&) {
+      return of.other_build ? "the programs here are not of the build that flies the study" : "";
+    };
     node.figures = [](const Json& result) { return Json{{"digest", result["digest"]}}; };
     node.reason = [](const std::filesystem::path&, const ExitStatus&) { return kMadeUpProblem; };
     return node;
