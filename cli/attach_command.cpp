@@ -28,7 +28,7 @@ pid_t chosen_process(const RunningFleet& fleet, const std::string& member) {
     if (name == member) return pid;
     known.push_back(name);
   }
-  throw InputError("attach: no program of " + member + " runs there; " + suggestion(member, known));
+  throw InputError("attach: this fleet has no running program of " + member + "; " + suggestion(member, known));
 }
 
 /// Says how long the fleet waits for a program that a debugger has stopped.
@@ -36,9 +36,9 @@ std::string patience_text(const RunningFleet& fleet, const std::string& member) 
   const bool server = member == programs::kSimServer;
   const bool timed = fleet.agent_timeout_s > 0.0 && !server;
   const double limit_s = timed ? std::min(fleet.agent_timeout_s, fleet.lease_s) : fleet.lease_s;
-  return fmt::format("the fleet waits for {} up to {} s of wall time at a stop, then {}; fly it with {} for longer",
-                     member, shortest(limit_s), server ? "ends" : "goes on without it",
-                     timed ? "--agent-timeout 3600" : "--debug");
+  return fmt::format(
+      "while {} is stopped, the fleet waits up to {} s of wall time, then {}; for more time, start the run with {}",
+      member, shortest(limit_s), server ? "ends" : "goes on without it", timed ? "--agent-timeout 3600" : "--debug");
 }
 
 /// Says what to do at the debugger's first stop, which is hardly ever in the user's own code.

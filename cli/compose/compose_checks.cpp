@@ -27,8 +27,8 @@ void check_names(const Scenario& scenario, bool watched) {
   for (const UavConfig& uav : scenario.fleet) {
     const auto [other, is_new] = seen.emplace(small(uav.name), uav.name);
     if (is_new) continue;
-    throw InputError(scenario.file.string() + ": fleet: in containers '" + uav.name + "' cannot be told from '" +
-                     other->second + "', whose network has that name, whatever its case; choose another name");
+    throw InputError(scenario.file.string() + ": fleet: in containers '" + uav.name + "' and '" + other->second +
+                     "' would have the same network name, which ignores case; choose another name");
   }
 }
 
@@ -52,9 +52,10 @@ void check_layout(const FleetPlan& plan, const ComposeLayout& layout) {
   for (const UavPlanner& planner : all) {
     if (layout.images.contains(planner.uav)) continue;
     if (exec_command(planner.spec) || planner.agent || plan.agent) {
-      throw InputError("--planner " + planner.uav + "=" + written(planner) +
-                       ": a program of this host is in no container; --image " + planner.uav +
-                       "=IMAGE names an image that has it");
+      throw InputError(
+          "--planner " + planner.uav + "=" + written(planner) +
+          ": a container does not have this host's programs; name an image that has this one with --image " +
+          planner.uav + "=IMAGE");
     }
   }
   std::vector<std::string> known;

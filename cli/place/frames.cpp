@@ -25,14 +25,15 @@ std::optional<Frame> FrameReader::next() {
   if (!greeted_ && !skip_to_greeting()) return std::nullopt;
   const std::size_t line = bytes_.find('\n');
   if (line == std::string::npos) {
-    if (bytes_.size() > kLongestHead) throw std::runtime_error("a line without an end");
+    if (bytes_.size() > kLongestHead) throw std::runtime_error("a line that is too long");
     return std::nullopt;
   }
   Frame frame{parse_json(bytes_.substr(0, line)), {}};
   if (!frame.head.is_object())
-    throw std::runtime_error("not a frame: " + bytes_.substr(0, std::min(line, std::size_t{80})));
+    throw std::runtime_error("something that is not a message of Skein: " +
+                             bytes_.substr(0, std::min(line, std::size_t{80})));
   const std::size_t size = value_or(frame.head, "bytes", std::size_t{0}).get<std::size_t>();
-  if (size > kLongestBody) throw std::runtime_error("a frame of " + std::to_string(size) + " bytes");
+  if (size > kLongestBody) throw std::runtime_error("a message of " + std::to_string(size) + " bytes");
   const std::size_t whole = line + 1 + (size == 0 ? 0 : size + 1);
   if (bytes_.size() < whole) return std::nullopt;
   frame.body = bytes_.substr(line + 1, size);
