@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <map>
@@ -30,18 +31,25 @@ std::string message_of(const ProgramSpec& program) {
   return text;
 }
 
-/// Runs programs side by side until the last has ended.
-std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& programs, const TellWaiting& tell) {
-  Supervisor supervisor;
+/// Runs programs side by side until the last has ended, or until the deadline, and then kills the others.
+/// @returns how each program ended that did so in time
+std::map<std::string, ExitStatus> run_all(const std::vector<ProgramSpec>& programs, const TellWaiting& tell,
+                                          std::optional<WaitNotice::Clock::time_point> deadline = {}) {
+  Supervisor supervisor;  // its destructor kills the programs that still run
   for (const ProgramSpec& program : programs) supervisor.start(program);
   std::map<std::string, ExitStatus> exits;
   WaitNotice notice(WaitNotice::Clock::now());
-  while (!supervisor.running().empty()) {
+  while (!supervisor.running().empty() && (!deadline || WaitNotice::Clock::now() < *deadline)) {
     const auto waited_s = notice.due(WaitNotice::Clock::now());
     if (tell && waited_s) {
       tell(fmt::format("waiting for {} to check its input ({:.0f} s)", joined(supervisor.running()), *waited_s));
     }
-    for (const Event& event : supervisor.wait(notice.left(WaitNotice::Clock::now()))) {
+    std::chrono::milliseconds left = notice.left(WaitNotice::Clock::now());
+    if (deadline) {
+      const auto until = std::chrono::ceil<std::chrono::milliseconds>(*deadline - WaitNotice::Clock::now());
+      left = std::clamp(until, std::chrono::milliseconds(0), left);
+    }
+    for (const Event& event : supervisor.wait(left)) {
       if (event.kind == Event::Kind::interrupt) {
         supervisor.end_all(kCheckGrace);
         throw Interrupted{};
@@ -108,18 +116,8 @@ int hand_over(const ProgramSpec& program) {
 ExitStatus run_to_end(const ProgramSpec& program) { return run_all({program}, {}).at(program.name); }
 
 std::optional<ExitStatus> run_within(const ProgramSpec& program, std::chrono::milliseconds limit) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point deadline = Clock::now() + limit;
-  Supervisor supervisor;
-  supervisor.start(program);
-  while (true) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0) return std::nullopt;  // the supervisor kills the program
-    for (const Event& event : supervisor.wait(left)) {
-      if (event.kind == Event::Kind::interrupt) throw Interrupted{};
-      if (event.kind == Event::Kind::exited) return event.exit;
-    }
-  }
+  const std::map<std::string, ExitStatus> exits = run_all({program}, {}, WaitNotice::Clock::now() + limit);
+  return exits.empty() ? std::nullopt : std::optional(exits.at(program.name));
 }
 
 ScratchDir::ScratchDir() {
