@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <system_error>
 
 #include "bus/program_bus.hpp"
@@ -24,13 +23,6 @@ struct Notes {
   std::vector<std::string> unwritten = {};  ///< files that could not be written
   std::optional<std::vector<std::string>> differences = {};
 };
-
-/// Adds each text that is not there yet.
-void add_new(const std::vector<std::string>& more, std::vector<std::string>& texts) {
-  for (const std::string& text : more) {
-    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
-  }
-}
 
 RadioCounts radio_counts(const LinkCounts& counts) {
   return {.sent = counts.sent,

@@ -1,7 +1,6 @@
 #include "station/station_program.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "bus/program_bus.hpp"
 #include "core/scenario/scenario_reader.hpp"
@@ -43,7 +42,7 @@ class StationMember final : public bus::FleetMember {
       return std::nullopt;
     }
     recorder_.close();
-    if (!recorder_.write_error().empty()) notes_.unwritten.push_back(recorder_.write_error());
+    if (!recorder_.write_error().empty()) add_new({recorder_.write_error()}, notes_.unwritten);
     if (!node_->came_too_late()) node_->write_report(notes_);
     return bus::exit_code(end, programs::kStation);
   }
@@ -60,9 +59,7 @@ class StationMember final : public bus::FleetMember {
     const StationNotes notes = node_->notes();
     notes_.malformed += notes.malformed;
     notes_.unsent += notes.unsent;
-    for (const std::string& file : notes.unwritten) {
-      if (std::ranges::find(notes_.unwritten, file) == notes_.unwritten.end()) notes_.unwritten.push_back(file);
-    }
+    add_new(notes.unwritten, notes_.unwritten);
   }
 
   const Scenario scenario_;

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "process/files/atomic_file.hpp"
@@ -17,6 +18,12 @@ void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& 
     report["unwritten"].push_back(trouble);
   }
   status.send_surely(status::line_json(status::Report{std::move(report)}));
+}
+
+void add_new(const std::vector<std::string>& more, std::vector<std::string>& texts) {
+  for (const std::string& text : more) {
+    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+  }
 }
 
 void withdraw_report(const std::filesystem::path& file) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "process/json_text.hpp"
 #include "process/status/status_pipe.hpp"
@@ -13,6 +15,9 @@ namespace skein {
 /// a sentence to the report's list `unwritten`, in which a program names all files that it could not write.
 /// @throws std::runtime_error if the file cannot be written and the status pipe is not open (no launcher).
 void hand_in_report(Json report, const std::filesystem::path& file, StatusPipe& status);
+
+/// Adds those texts to a list of a report, such as `unwritten`, that the list does not contain yet, in their order.
+void add_new(const std::vector<std::string>& more, std::vector<std::string>& texts);
 
 /// Deletes the report of an earlier run from the same folder. Call it when the program starts to work.
 void withdraw_report(const std::filesystem::path& file);

@@ -27,6 +27,12 @@ class ProgramReport : public testing::Test {
       std::filesystem::path(testing::TempDir()) / ("skein_report_" + std::to_string(::getpid()));
 };
 
+TEST(AddNew, AddsEachTextThatTheListDoesNotContainOnce) {
+  std::vector<std::string> texts = {"b", "a"};
+  add_new({"a", "d", "c", "d"}, texts);
+  EXPECT_EQ(texts, (std::vector<std::string>{"b", "a", "d", "c"}));
+}
+
 TEST_F(ProgramReport, GoesToTheLauncherAndToAFile) {
   StatusPipe status(pipe_[1]);
   hand_in_report({{"score", 7}}, file_, status);
