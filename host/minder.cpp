@@ -12,8 +12,8 @@
 namespace skein::cli {
 namespace {
 
-/// The signal that the kernel sends to the minder when the launcher dies.
-constexpr int kLauncherDied = SIGUSR1;
+/// The signal that the kernel sends to the minder when the launcher dies: one that also continues a stopped minder.
+constexpr int kLauncherDied = SIGCONT;
 
 /// @returns whether it killed any; false: there is no child, or none that the minder may kill.
 bool kill_children() {
@@ -28,6 +28,22 @@ bool kill_children() {
 void end_children() {
   while (kill_children() && ::waitpid(-1, nullptr, 0) > 0) {
   }
+}
+
+/// Stops this process because its program has stopped. When the program is continued or killed, or when the launcher
+/// dies, SIGCONT comes to this process just afterwards. If it came before this process stops, it would be lost, and this
+/// process would stop for ever. So a child stops this process, and continues it if one of these things has happened
+/// until then.
+void stop_with(pid_t program, pid_t launcher) {
+  const pid_t minder = ::getpid(), child = ::fork();
+  if (child < 0) ::kill(minder, SIGSTOP);
+  if (child != 0) return;  // mind() waits for the child
+  const auto is_to_stop = [&] { return has_stopped(program) && parent_of(minder) == launcher; };
+  if (is_to_stop()) {
+    ::kill(minder, SIGSTOP);
+    if (!is_to_stop()) ::kill(minder, SIGCONT);
+  }
+  ::_exit(0);
 }
 
 [[noreturn]] void end_as(int status) {
@@ -65,7 +81,7 @@ void mind(pid_t program, pid_t launcher) {
     for (pid_t pid = 0; (pid = ::waitpid(-1, &status, WNOHANG | WUNTRACED)) > 0;) {
       if (pid != program) continue;
       if (WIFSTOPPED(status)) {
-        ::kill(::getpid(), SIGSTOP);
+        stop_with(program, launcher);
       } else {
         end_children();
         end_as(status);

@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -221,6 +223,49 @@ TEST_F(MinderTest, KillsAllWhenTheLauncherHasDied) {
   EXPECT_EQ(next_change(), "code " + std::to_string(128 + SIGKILL));
   EXPECT_TRUE(all_ended());
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+}
+
+TEST_F(MinderTest, KillsAllWhenTheLauncherHasDiedAlsoWhileTheProgramIsStopped) {
+  ASSERT_EQ(::prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // so that the minder becomes a child of this process
+  const pid_t launcher = start_below_launcher("echo started; kill -STOP $$; exit 5");
+  EXPECT_EQ(heard(), "started");
+  EXPECT_TRUE(eventually([&] { return has_stopped(minder()); }, kUntilNoticed));
+  EXPECT_EQ(::kill(launcher, SIGKILL), 0);
+  EXPECT_EQ(::waitpid(launcher, nullptr, 0), launcher);
+  EXPECT_EQ(next_change(), "code " + std::to_string(128 + SIGKILL));
+  EXPECT_TRUE(all_ended());
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
+}
+
+// This process traces the minder. It kills the program after the minder has seen that the program stopped, and before
+// the minder has done anything about it.
+TEST_F(MinderTest, EndsIfItsProgramIsKilledWhileTheMinderIsAboutToStop) {
+  start("echo $$; read line; kill -STOP $$; exit 5");
+  const pid_t program = std::atoi(heard().c_str());
+  ASSERT_GT(program, 0);
+  ASSERT_TRUE(minder_waits());
+  if (::ptrace(PTRACE_SEIZE, minder(), nullptr, PTRACE_O_TRACESYSGOOD) != 0) GTEST_SKIP() << "ptrace() is not allowed";
+  EXPECT_EQ(::ptrace(PTRACE_INTERRUPT, minder(), nullptr, nullptr), 0);
+  say("stop");
+  bool has_seen = false;
+  long call = 0;
+  const auto is_about_to_stop = [&] {
+    int status = 0;
+    if (::waitpid(minder(), &status, WNOHANG) != minder()) return false;
+    __ptrace_syscall_info info{};
+    ::ptrace(PTRACE_GET_SYSCALL_INFO, minder(), sizeof info, &info);
+    if (info.op == PTRACE_SYSCALL_INFO_ENTRY && has_seen) return true;
+    if (info.op == PTRACE_SYSCALL_INFO_ENTRY) call = static_cast<long>(info.entry.nr);
+    has_seen = info.op == PTRACE_SYSCALL_INFO_EXIT && call == SYS_wait4 && info.exit.rval == program;
+    ::ptrace(PTRACE_SYSCALL, minder(), nullptr, nullptr);
+    return false;
+  };
+  ASSERT_TRUE(eventually(is_about_to_stop, kUntilNoticed));
+  for (const auto& [pid, signal] : {std::pair(program, SIGKILL), {minder(), SIGCONT}}) ::kill(pid, signal);
+  EXPECT_EQ(::ptrace(PTRACE_DETACH, minder(), nullptr, nullptr), 0);
+  std::string change = next_change();
+  if (change == "stopped") change = next_change();  // only for a moment
+  EXPECT_EQ(change, "signal " + std::to_string(SIGKILL));
 }
 
 TEST(Minder, NoticesThatTheLauncherIsAlreadyDead) {
