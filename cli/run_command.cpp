@@ -252,6 +252,7 @@ RunEnd fly_fleet(const RunOptions& given, const Console& console) {
 
   if (options.cores) allow_cores();
   FleetRun run(plan, console.err, console.terminal);
+  if (domains != nullptr) run.tend(*domains);
   run.view().message(start_line(plan, domains, dir));
   if (placed) run.view().message(placed->text());
   if (page) {

@@ -16,7 +16,7 @@ namespace skein::cli {
 /// Above this domain, the UDP ports that the DDS standard prescribes reach into Linux's ephemeral port range.
 inline constexpr int kLastQuietDomain = 101;
 
-/// @throws InputError for a fleet of more UAVs than can have a domain each.
+/// @throws InputError for a fleet of more UAVs than fly over DDS (kMostUavsOverDds).
 void check_uavs_over_dds(std::size_t uavs);
 
 /// Holds the domains base .. base + size - 1 for as long as it lives.
@@ -28,6 +28,11 @@ class DomainBlock {
   /// @throws InputError if `base` is out of range, if a domain of its block is taken (the message names the process, if
   ///   it can be seen), or if no block of this size is free.
   DomainBlock(std::optional<int> base, int size, std::string realm = {}, int from = kFirstDomain);
+
+  /// Call it now and then while a fleet flies: see HostLock.
+  void forget_visitors() const {
+    for (const HostLock& lock : locks_) lock.forget_visitors();
+  }
 
   int base() const { return base_; }
   int last() const { return base_ + static_cast<int>(locks_.size()) - 1; }

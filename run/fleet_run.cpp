@@ -135,6 +135,7 @@ void FleetRun::watch() {
     for (const DebugWatch* watch : debugged_ended) on_debugged_end(*watch);
     host_->follow_job_control();
     tell_waiting();
+    if (domains_ != nullptr) domains_->forget_visitors();
     for (const std::string& program : orders_->take_returning()) bring_back(program);
     leave_by_.excuse(Clock::now() - began, limit);
   }

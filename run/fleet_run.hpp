@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/run/wait_notice.hpp"
+#include "host/domain_block.hpp"
 #include "host/process_orders.hpp"
 #include "host/program_host.hpp"
 #include "process/status/status_lines.hpp"
@@ -38,6 +39,9 @@ class FleetRun {
   /// @param elsewhere  runs the programs, for example on other hosts; null: they are children of this process.
   void fly(int base_domain, const std::filesystem::path& out, const SecureFolders& secure,
            std::unique_ptr<ProgramHost> elsewhere = nullptr);
+
+  /// The domains that the fleet uses, as long as fly() lasts. They must outlive fly().
+  void tend(const DomainBlock& domains) { domains_ = &domains; }
 
   /// The same for programs in containers, which are restarted there and not by the launcher. So this process does not
   /// execute faults that concern programs. @param containers  the follower process of each container.
@@ -106,6 +110,7 @@ class FleetRun {
   FleetPlan plan_;
   std::ostream& console_;
   const bool terminal_;
+  const DomainBlock* domains_ = nullptr;  ///< null: none, or of another process
   std::unique_ptr<ProgramHost> host_;
   std::optional<ProcessOrders> orders_;
   ProgressView view_;

@@ -77,6 +77,7 @@ class HostService {
       for (const Event& event : supervisor_.wait(kTick)) tell(event);
       listen();
       tell_news();
+      if (domains_) domains_->forget_visitors();
       flush(milliseconds(0));
       over_ = over_ || Clock::now() - heard_ > (has_heard_ ? kSilence : kFirstFrame);
     }

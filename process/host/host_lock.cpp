@@ -45,9 +45,9 @@ std::optional<HostLock> HostLock::try_take(const std::string& name) {
     if (errno == EADDRINUSE) return std::nullopt;
     throw std::system_error(errno, std::generic_category(), "lock " + name);
   }
-  // From here on the lock is held. No connection is ever accepted: the socket listens only so that holder() can connect
-  // and get the process id. Until it listens, or when its queue is full of connections that have closed long ago,
-  // holder() gets none, which only leaves the id out of a message.
+  // From here on the lock is held. The socket listens only so that holder() can connect and get the process id. Until it
+  // listens, or when its queue is full of connections that nothing has accepted, holder() gets none, which only leaves
+  // the id out of a message.
   if (::listen(lock.fd_, SOMAXCONN) != 0) throw std::system_error(errno, std::generic_category(), "lock " + name);
   return lock;
 }
@@ -61,6 +61,10 @@ std::optional<pid_t> HostLock::holder(const std::string& name) {
                      ::getsockopt(visitor.fd_, SOL_SOCKET, SO_PEERCRED, &credentials, &size) == 0 &&
                      credentials.pid > 0;
   return known ? std::optional(credentials.pid) : std::nullopt;
+}
+
+void HostLock::forget_visitors() const {
+  for (int visitor = 0; (visitor = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC)) >= 0;) ::close(visitor);
 }
 
 HostLock::HostLock(HostLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}

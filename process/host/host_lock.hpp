@@ -18,9 +18,13 @@ class HostLock {
   static std::optional<HostLock> try_take(const std::string& name);
   /// The process that holds the lock; nullopt if there is none, if it has taken the lock only just now, or if it is not
   /// visible in this process's PID namespace: from within a container, processes outside it are not. Also nullopt
-  /// after about 4,096 calls for the same lock (SOMAXCONN): each takes a place in the holder's queue until it ends.
+  /// after about 4,096 calls for the same lock (SOMAXCONN) since the holder last called forget_visitors().
   /// Use the result only in messages; to find out whether the lock is free, call try_take().
   static std::optional<pid_t> holder(const std::string& name);
+
+  /// Frees the places in the lock's queue that calls of holder() have taken. A process that holds a lock for long must
+  /// call it now and then. Does not wait.
+  void forget_visitors() const;
 
   HostLock(HostLock&& other) noexcept;
   HostLock& operator=(HostLock&& other) noexcept;

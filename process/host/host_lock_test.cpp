@@ -33,6 +33,15 @@ TEST(HostLock, TheHolderIsKnown) {
   EXPECT_EQ(HostLock::holder(own_name()), ::getpid());
 }
 
+// Each call of holder() takes a place in a queue of at most SOMAXCONN places.
+TEST(HostLock, TheHolderIsKnownAgainOnceItHasForgottenItsVisitors) {
+  const auto lock = HostLock::try_take(own_name());
+  for (int round = 0; round < 3; ++round) {
+    for (int call = 0; call < 2000; ++call) ASSERT_EQ(HostLock::holder(own_name()), ::getpid()) << call;
+    lock->forget_visitors();
+  }
+}
+
 TEST(HostLock, TheLockOfAKilledHolderIsFree) {
   const std::string name = own_name();
   int ready[2];

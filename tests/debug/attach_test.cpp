@@ -1,5 +1,8 @@
 // `skein ps` and `skein attach`: debugging in a fleet that already flies.
+#include <sys/socket.h>
+
 #include "debug_fixture.hpp"
+#include "process/host/host_lock.hpp"
 
 namespace skein::test {
 namespace {
@@ -29,6 +32,15 @@ TEST_F(Attach, PsListsTheFleetAndItsPrograms) {
     expect_part(text, "  " + program);
     expect_part(text, std::to_string(pid) + "  runs\n");
   }
+  end(fleet);
+}
+
+// Each look takes a place in the queue of the lock of the fleet's domain, which has at most SOMAXCONN places.
+TEST_F(Attach, TheLauncherIsFoundHoweverOftenAUserLooks) {
+  SkeinRun& fleet = flying_fleet();
+  const std::string lock = domain_lock_name(fleet.domains().first);
+  const auto is_found = [&] { return HostLock::holder(lock) == fleet.skein().pid(); };
+  for (int look = 0; look < 3 * SOMAXCONN; ++look) ASSERT_TRUE(is_found() || eventually(is_found)) << look;
   end(fleet);
 }
 
