@@ -77,6 +77,13 @@ def _is_flag(value: Any) -> bool:
     return isinstance(value, bool) or type(value).__name__ in ("bool_", "bool")  # NumPy has its own type
 
 
+def flag(name: str, value: Any) -> bool:
+    """True or False, of Python or of NumPy. Raises InputError for any other value."""
+    if not _is_flag(value):
+        raise InputError(f"{name} must be True or False, not {value!r:.80}")
+    return bool(value)
+
+
 def option_arguments(options: Mapping[str, Any]) -> list[str]:
     """Keyword arguments as words of the command line. False and None leave an option out."""
     words: list[str] = []
@@ -132,6 +139,7 @@ def call(words: list[str], folder_of: Callable[[Finished], Path | None], *,
     Ctrl-C goes to the launcher, which ends the fleet at its next step and writes the result; then KeyboardInterrupt is
     raised here. A second Ctrl-C ends it at once, a third kills it. If this program dies, the launcher gets SIGTERM.
     """
+    verbose = flag("verbose", verbose)
     command = [find_launcher(launcher), *words]
     # The kernel sends this signal even if this program is killed. preexec_fn, which runs between fork and exec, could
     # request the same, but is not safe if the program has other threads.

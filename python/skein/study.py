@@ -7,8 +7,10 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import columns
-from .errors import Error
+from .errors import Error, InputError
 from .launch import Finished, fly, option_arguments
 from .run import Run, existing_folder, frame_of, read_json
 from .tables import Array, read_study_table, read_wide_table
@@ -78,6 +80,8 @@ class Study:
 
     def table(self, name: str) -> Array:
         """One of the tables below, by its name."""
+        if not isinstance(name, str):
+            raise InputError(f"the name of a table is a text, not {name!r:.80}")
         if name not in self._tables:
             if name not in columns.STUDY_TABLES:
                 raise KeyError(f"a study has no table {name!r}; it has {', '.join(columns.STUDY_TABLES)}")
@@ -122,6 +126,8 @@ class Study:
 
     def run(self, number: int) -> Run:
         """The run of row `number` of `flights`."""
+        if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
+            raise InputError(f"number must be the whole number of a row, not {number!r:.80}")
         return Run(self.path / str(self.flights[number]["folder"]))
 
     def runs(self, **where: Any) -> list[Run]:

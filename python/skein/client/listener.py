@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import math
 import os
 import time
 import weakref
@@ -73,6 +72,8 @@ def _patience_s(value: float) -> float:
 
 def _flying_fleet(run: str | os.PathLike[str] | None) -> FlyingFleet:
     folder = path_text("run", run) if run is not None else None
+    if folder is not None and "\0" in folder:
+        raise InputError(f"no fleet flies into {folder!r}: no folder has such a name")
     found = list(_fleets())
     if folder is not None:
         found = [fleet for fleet in found if fleet.folder == Path(folder).resolve()]
@@ -174,11 +175,12 @@ class Listener:
         more."""
         if self._closed:
             raise Error("this listener is closed")
-        if timeout_s is not None and not (math.isfinite(timeout_s) and timeout_s >= 0):
+        seconds = 0.2 if timeout_s is None else min(words.number(timeout_s, "timeout_s"), 86400.0)
+        if seconds < 0.0:
             raise InputError(f"timeout_s: must be at least 0, not {timeout_s!r}")
         while True:
             with translated():
-                heard = self._ear.next(min(timeout_s, 86400.0) if timeout_s is not None else 0.2)
+                heard = self._ear.next(seconds)
                 if heard is None and timeout_s is None:
                     writers = self._ear.has_writers()
                     if writers or not self._heard_any:

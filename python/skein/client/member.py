@@ -8,7 +8,7 @@ import math
 import os
 import sys
 import weakref
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
@@ -74,6 +74,22 @@ def whole(name: str, text: str, most: int) -> int:
     return int(text)
 
 
+def text(name: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise InputError(f"{name}: must be a text, not {value!r:.80}")
+    return str(value)
+
+
+def texts(name: str, value: Any) -> list[str]:
+    """A list of texts. A single text is none: it would count as a list of letters."""
+    if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Iterable):
+        raise InputError(f"{name}: must be a list of texts, not {value!r:.80}")
+    for one in value:
+        if not isinstance(one, str):
+            raise InputError(f"{name}: each entry is a text, not {one!r:.80}")
+    return [str(one) for one in value]
+
+
 class Client:
     """Takes part in the lock-step, with either DDS vendor, and delivers the UAV's captures by itself.
 
@@ -104,11 +120,8 @@ class Client:
             if not isinstance(wanted, bool):
                 raise InputError(f"{option}: must be True or False, not {wanted!r:.80}")
         self._options = {option for option, wanted in (("scans", scans), ("key_frames", key_frames)) if wanted}
-        for one in (*read, *debug):
-            if not isinstance(one, str):
-                raise InputError(f"a topic or name is a text, not {one!r}")
-        self._read = [*dict.fromkeys([*self._usual_topics(), *read])]
-        self._debug = tuple(debug)
+        self._read = [*dict.fromkeys([*self._usual_topics(), *texts("read", read)])]
+        self._debug = tuple(texts("debug", debug))
         self._writes = self._usual_commands() if self.is_uav else []
         self._latest: dict[str, bytes] = {}
         self._types: dict[str, str] = {}
@@ -218,7 +231,7 @@ class Client:
 
     def send(self, what: str | Message, topic: str = "/plan") -> None:
         """Sends a text, or a message of the topic's type, by radio. Nodes with a link receive it in the next step."""
-        of = self._radio.get(topic)
+        of = self._radio.get(text("topic", topic))
         if of is None or topic not in self._sends:
             raise InputError(f"{self.name} may not send on '{topic}'; it may on {', '.join(sorted(self._sends))}. "
                              "open() registers another topic")
@@ -241,7 +254,7 @@ class Client:
     def debug(self, name: str, value: float) -> None:
         """Publishes a value, for faults, properties and plots (docs/properties.md). `name`: one of
         `Client(debug=[...])`."""
-        if name not in self._debug:
+        if text("name", name) not in self._debug:
             known = ", ".join(self._debug) or "none"
             raise InputError(f"'{name}' is not a name of Client(debug=[...]); those are: {known}")
         self._say(f"/{self.name}/debug/{name}", messages.new("std_msgs/msg/Float64", data=words.number(value, name)))
@@ -251,18 +264,17 @@ class Client:
     def open(self, topic: str, type: str = _TEXT, targets: Sequence[str] = ("all",)) -> None:
         """Registers a radio topic for sending to `targets`. Send only once `is_open()` returns True."""
         self._now()
-        if isinstance(targets, str):
-            raise InputError(f"targets: must be a list of nodes, not {targets!r}")
+        nodes = texts("targets", targets)
         messages.type_named(type)
         with translated():
-            self._member.open(topic, type, list(targets))
+            self._member.open(text("topic", topic), type, nodes)
         self._radio[topic] = type
         self._sends.add(topic)
 
     def is_open(self, topic: str) -> bool:
         """Whether the radio topic is open for sending. Raises InputError if the router has refused it."""
         self._now()
-        if topic not in self._sends:
+        if text("topic", topic) not in self._sends:
             return False
         with translated():
             is_open, refusal, _ = self._member.sending(topic)
@@ -275,7 +287,7 @@ class Client:
         self._now()
         messages.type_named(type)
         with translated():
-            self._member.listen(topic, type)
+            self._member.listen(text("topic", topic), type)
         self._radio[topic] = type
 
     # ---- internals -----------------------------------------------------------------------------------------------
@@ -322,7 +334,7 @@ class Client:
         return f"{topic}/{self.name}" if topic in self._radio else topic
 
     def _type_of(self, topic: str) -> str:
-        if topic in self._radio:
+        if text("topic", topic) in self._radio:
             return self._radio[topic]
         if topic not in self._types:
             if topic not in self._read:

@@ -236,6 +236,8 @@ class _Reader:
 def decode(type_name: str, payload: bytes) -> Message:
     """Deserialises a message of this type from bytes with an encapsulation header. Raises DamagedError."""
     of = type_named(type_name)
+    if not isinstance(payload, (bytes, bytearray, memoryview)):
+        raise InputError(f"payload: must be bytes, not {payload!r:.80}")
     try:
         return _Reader(payload).message(of)
     except DamagedError as error:

@@ -31,6 +31,7 @@ _MODES = (
 
 def map(run: Run, ax: Axes | None = None) -> Axes:
     """Plan view of a flight: interest points by delivered quality, boxes, tracks, starts, station and collisions."""
+    look.checked("run", run, Run)
     poses, points = run.trajectories, run.points
     sides = [max(np.ptp([*poses[axis], *points[axis]]), 1.0) for axis in ("x", "y")]
     with look.drawing(ax, 1.2 + float(np.clip(2.4 * sides[1] / sides[0], 0.8, 4.0))) as ax:
@@ -110,6 +111,7 @@ def _lanes(ax: Axes, names: list[str], end_s: float) -> None:
 def activity(run: Run, ax: Axes | None = None) -> Axes:
     """What each UAV did over time, as its program reported it, with a colour for each kind of activity. Strokes above a
     UAV's bar are its captures."""
+    look.checked("run", run, Run)
     uavs = run.uavs
     with look.drawing(ax, 1.5 + 0.24 * len(uavs)) as ax:
         said, captures = run.activity, run.captures
@@ -135,6 +137,7 @@ def activity(run: Run, ax: Axes | None = None) -> Axes:
 
 def links(run: Run, ax: Axes | None = None) -> Axes:
     """The share of the run's time in which each radio link was open. Rows are senders, columns receivers."""
+    look.checked("run", run, Run)
     nodes = ["gcs", *run.uavs]
     with look.drawing(ax, 2.9) as ax:
         share = np.full((len(nodes), len(nodes)), np.nan)
@@ -161,6 +164,7 @@ def links(run: Run, ax: Axes | None = None) -> Axes:
 
 def links_over_time(run: Run, ax: Axes | None = None) -> Axes:
     """When each UAV was linked to the station, directly or through other UAVs."""
+    look.checked("run", run, Run)
     uavs = run.uavs
     with look.drawing(ax, 1.1 + 0.24 * len(uavs)) as ax:
         up = run.links

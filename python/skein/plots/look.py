@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..errors import missing_package
+from ..errors import InputError, missing_package
 from ..run import Run
 
 if TYPE_CHECKING:
@@ -90,10 +90,18 @@ def drawing(ax: Axes | None, height: float, width: float = WIDTH) -> Iterator[Ax
 
 
 def several(runs: Run | Iterable[Run]) -> list[Run]:
-    all_runs = [runs] if isinstance(runs, Run) else list(runs)
+    all_runs = [runs] if isinstance(runs, Run) else list(runs) if isinstance(runs, Iterable) else []
+    if not (isinstance(runs, Iterable) or all_runs) or not all(isinstance(run, Run) for run in all_runs):
+        raise InputError(f"runs must be a skein.Run or a list of them, not {runs!r:.80}")
     if not all_runs:
         raise ValueError("there is no run to draw")
     return all_runs
+
+
+def checked(name: str, value: Any, kind: type[Any]) -> None:
+    """Raises InputError if the value is not of this kind."""
+    if not isinstance(value, kind):
+        raise InputError(f"{name} must be a skein.{kind.__name__}, not {value!r:.80}")
 
 
 def end_s(run: Run) -> float:
@@ -104,6 +112,8 @@ def end_s(run: Run) -> float:
 def labels_of(runs: Sequence[Run], labels: Sequence[str] | None) -> list[str]:
     """Labels for runs: `labels`, or what differs between the runs."""
     if labels is not None:
+        if isinstance(labels, str) or not isinstance(labels, Sequence) or not all(isinstance(x, str) for x in labels):
+            raise InputError(f"labels must be a list of texts, not {labels!r:.80}")
         if len(labels) != len(runs):
             raise ValueError(f"there are {len(labels)} labels for {len(runs)} runs")
         return list(labels)

@@ -20,6 +20,7 @@ _FEWEST_IN_A_BOX = 5  # quartiles of fewer flights say little
 def scores(study: Study, ax: Axes | None = None, *, figure: str = "score") -> Axes:
     """A figure (a column of `study.flights`) by scene and planner: a dot for each flight, a line at the median. From 5
     flights on also a box between the quartiles, with whiskers to the least and the greatest value."""
+    look.checked("study", study, Study)
     flights, planners, scenarios = study.flights, study.planners, study.scenarios
     slots = len(scenarios) * (len(planners) + 1) - 1
     with look.drawing(ax, 2.4, max(look.WIDTH, 0.16 * slots + 0.8)) as ax:
@@ -46,6 +47,7 @@ def scores(study: Study, ax: Axes | None = None, *, figure: str = "score") -> Ax
 def curves(study: Study, ax: Axes | None = None, *, scenario: str | None = None) -> Axes:
     """Scores over time in one scene: for each planner the median of its flights, in a band from the least to the
     greatest score. `scenario` may be left out if the study has only one."""
+    look.checked("study", study, Study)
     if scenario is None and len(study.scenarios) > 1 or scenario is not None and scenario not in study.scenarios:
         raise ValueError(f"which scenario? There are {', '.join(study.scenarios)}, not {scenario!r}")
     with look.drawing(ax, 2.2) as ax:
@@ -94,6 +96,7 @@ def _draw_box(ax: Axes, x: float, values: Array, colour: str) -> None:
 def pairs(study: Study, ax: Axes | None = None, *, figure: str = "score") -> Axes:
     """Differences between planners in flights with the same seed: the median of the differences of scores, or of
     another figure of pairs.csv, and its 95 % interval if there are enough flights. The launcher computed them."""
+    look.checked("study", study, Study)
     table = study.pairs[study.pairs["figure"] == figure]
     if not len(table):
         raise ValueError(f"which figure? There are {', '.join(dict.fromkeys(map(str, study.pairs['figure'])))}")

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..launch import option_arguments, path_text, positional
+from ..launch import flag, option_arguments, path_text, positional
 from . import settings, spaces
 from .actions import Orders, action_space
 from .observations import Observations
@@ -47,11 +47,13 @@ class Fleet:
         self.possible_agents: list[str] = settings.names("learners", learners)
         self._actions = settings.one_of("actions", actions, _ACTIONS)
         self.render_mode = settings.one_of("render_mode", render_mode, (None, *self.metadata["render_modes"]))
-        self._safe, self._reward = bool(safe), reward
+        self._safe, self._reward = flag("safe", safe), reward
+        if reward is not None and not callable(reward):
+            raise InputError(f"reward must be a function, not {reward!r:.80}")
         self._seed = settings.whole("seed", seed)
         map_x, map_y, map_z = settings.cells("map_window", map_window)
         learner = ",".join(f"{name}={value}" for name, value in {
-            "flies": _ACTIONS[actions], "safe": str(bool(safe)).lower(), "scans": str(bool(scans)).lower(),
+            "flies": _ACTIONS[actions], "safe": str(self._safe).lower(), "scans": str(flag("scans", scans)).lower(),
             "detections": settings.whole("detections", detections), "map_x": map_x, "map_y": map_y, "map_z": map_z,
             "map_cell_m": settings.number("map_cell_m", map_cell_m)}.items())
         planner = settings.text("planner", planner)
@@ -68,7 +70,10 @@ class Fleet:
         self.agents: list[str] = []
         self._over = False
         self._resets = 0
-        about = self._family(options.get("scene_seed")).about
+        scene_seed = options.get("scene_seed")
+        if scene_seed is not None and not isinstance(scene_seed, str):  # the launcher reads a text
+            self._options["scene_seed"] = scene_seed = settings.whole("scene_seed", scene_seed)
+        about = self._family(scene_seed).about
         self._uavs: tuple[str, ...] = tuple(uav["name"] for uav in about["uavs"])
         self._index = {uav: i for i, uav in enumerate(self._uavs)}
         self._period_s = float(about["exchange_period_s"])

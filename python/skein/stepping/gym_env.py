@@ -24,6 +24,8 @@ class GymEnv(_Env):  # type: ignore[misc]
     spec: Any = None
 
     def __init__(self, fleet: Fleet) -> None:
+        if not isinstance(fleet, Fleet):
+            raise InputError(f"fleet must be a skein.Fleet, not {fleet!r:.80}")
         if len(fleet.possible_agents) != 1:
             raise InputError(f"one UAV learns here, not {len(fleet.possible_agents)}: use skein.Fleet for several")
         self.fleet = fleet

@@ -18,6 +18,9 @@ class FleetVector:
     """Fleets that fly their steps in parallel, on all cores. Results are lists with the results of each `Fleet`."""
 
     def __init__(self, fleets: Sequence[Fleet]) -> None:
+        listed = isinstance(fleets, Sequence) and len(fleets) > 0
+        if not listed or not all(isinstance(fleet, Fleet) for fleet in fleets):
+            raise InputError(f"fleets must be a list of one or more skein.Fleet, not {fleets!r:.80}")
         self.fleets = list(fleets)
 
     @property
@@ -42,7 +45,7 @@ class FleetVector:
         elif isinstance(seed, (int, np.integer)):
             seeds = [settings.whole("seed", seed) + i for i in range(len(self.fleets))]
         else:
-            seeds = list(seed)
+            seeds = seed
         self._check_length("seeds", seeds)
         both = [fleet.reset(one, options) for fleet, one in zip(self.fleets, seeds)]
         return [observations for observations, _ in both], [infos for _, infos in both]
@@ -73,6 +76,8 @@ class FleetVector:
         return observations, rewards, terminations, truncations, infos
 
     def _check_length(self, name: str, values: Sequence[Any]) -> None:
+        if not isinstance(values, (Sequence, np.ndarray)) or getattr(values, "ndim", 1) == 0:
+            raise InputError(f"{name} must be a list with one for each fleet, not {values!r:.80}")
         if len(values) != len(self.fleets):
             raise InputError(f"there are {len(self.fleets)} fleets, and {len(values)} {name}")
 
