@@ -40,14 +40,18 @@ bool Pace::may_go_on(Clock::time_point now, double period_s) {
     if (!since_) since_ = now;
     return false;
   }
-  if (since_) held_ += now - *since_;
-  since_.reset();
+  let_go(now);
   if (paused_) --steps_;
   if (speed_) {
     const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(period_s / *speed_));
     due_ = std::max(due_.value_or(now), now - kCatchUp) + period;
   }
   return true;
+}
+
+void Pace::let_go(Clock::time_point now) {
+  if (since_) held_ += now - *since_;
+  since_.reset();
 }
 
 Pace::Clock::duration Pace::left(Clock::time_point now) const {

@@ -27,13 +27,17 @@ class Pace {
   /// that returns true uses up one of the single steps that a viewer has ordered.
   /// @param period_s  simulated time of an exchange [s]
   bool may_go_on(Clock::time_point now, double period_s);
+  /// The run goes on, although may_go_on() has returned false.
+  void let_go(Clock::time_point now);
   /// While may_go_on() returns false: time until it is worth asking again, unless an order comes first.
   Clock::duration left(Clock::time_point now) const;
 
   bool paused() const { return paused_; }
   const std::optional<double>& speed() const { return speed_; }
-  /// Total wall time for which it has held the run [s].
-  double held_s() const { return std::chrono::duration<double>(held_).count(); }
+  /// Total wall time for which it has held the run until now [s], also if it still does.
+  double held_s(Clock::time_point now) const {
+    return std::chrono::duration<double>(since_ ? held_ + (now - *since_) : held_).count();
+  }
 
  private:
   std::optional<double> speed_, pause_at_s_;
@@ -41,7 +45,7 @@ class Pace {
   int steps_ = 0;                           ///< single steps that are ordered and not yet taken
   std::optional<Clock::time_point> since_;  ///< when it began to hold the run; none: it does not
   std::optional<Clock::time_point> due_;    ///< when `speed_` lets the next exchange begin; none: at once
-  Clock::duration held_{};
+  Clock::duration held_{};                  ///< without the hold that lasts
 };
 
 }  // namespace skein::sim

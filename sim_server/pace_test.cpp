@@ -26,13 +26,13 @@ class PaceTest : public testing::Test {
 
 TEST_F(PaceTest, TheRunKeepsTheSpeed) {
   EXPECT_EQ(exchanges(1000), 40) << "2 s in a second, of 0.05 s each";
-  EXPECT_NEAR(pace_.held_s(), 1.0, 0.07) << "exchanges take no time here, and the test notices each hold 1 ms late";
+  EXPECT_NEAR(pace_.held_s(now_), 1.0, 0.07) << "exchanges take no time here, and the test notices each hold 1 ms late";
 }
 
 TEST_F(PaceTest, WithoutASpeedLimitTheRunIsNeverHeld) {
   pace_.obey({Kind::speed, std::nullopt});
   EXPECT_EQ(exchanges(100), 100);
-  EXPECT_EQ(pace_.held_s(), 0.0);
+  EXPECT_EQ(pace_.held_s(now_), 0.0);
 }
 
 TEST_F(PaceTest, APausedRunStandsStillUntilItIsResumed) {
@@ -43,8 +43,25 @@ TEST_F(PaceTest, APausedRunStandsStillUntilItIsResumed) {
   EXPECT_GT(pace_.left(now_), Pace::Clock::duration(0));
   pace_.obey({Kind::resume});
   EXPECT_EQ(exchanges(1), 1) << "at once";
-  EXPECT_GT(pace_.held_s(), 60.0);
+  EXPECT_GT(pace_.held_s(now_), 60.0);
   EXPECT_EQ(exchanges(1000), 40) << "the time of the pause is not made up for";
+}
+
+TEST_F(PaceTest, APauseThatLastsCountsAsHeldTime) {
+  EXPECT_EQ(exchanges(1), 1);
+  pace_.obey({Kind::pause});
+  EXPECT_EQ(exchanges(60'000), 0);
+  EXPECT_DOUBLE_EQ(pace_.held_s(now_), 60.0);
+}
+
+TEST_F(PaceTest, ARunThatIsLetGoIsNotHeldAlthoughItIsPaused) {
+  pace_.obey({Kind::pause});
+  EXPECT_EQ(exchanges(1000), 0);
+  pace_.let_go(now_);
+  now_ += std::chrono::seconds(60);
+  EXPECT_DOUBLE_EQ(pace_.held_s(now_), 1.0);
+  EXPECT_EQ(exchanges(1000), 0);
+  EXPECT_DOUBLE_EQ(pace_.held_s(now_), 2.0);
 }
 
 TEST(Pace, TheRunPausesOnceAtItsPauseTime) {

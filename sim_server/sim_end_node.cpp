@@ -10,8 +10,9 @@ bool SimNode::end_run(bool joined) {
   if (options_.gate) options_.gate->closed(simulation_, digest_);
   tell_of_strangers(0);
   for (const std::string& name : uav_names_) summary_.commands_unheard.push_back(strangers_.unheard(name));
-  const std::chrono::duration<double> wall = Clock::now() - started_;
-  summary_.wall_time_s = joined ? wall.count() - (watch_ ? watch_->held_s() : 0.0) : 0.0;
+  const Clock::time_point now = Clock::now();
+  const std::chrono::duration<double> wall = now - started_;
+  summary_.wall_time_s = joined ? wall.count() - (watch_ ? watch_->held_s(now) : 0.0) : 0.0;
   summary_.timing = clock_.summary();
   summary_.timing.cpu_s = joined ? thread_cpu_s() - cpu_before_s_ : 0.0;
   summary_.malformed = inbox_.malformed();

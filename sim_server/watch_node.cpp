@@ -243,7 +243,10 @@ bool WatchNode::may_go_on() {
   look_.tell(now);
   if (!options_.paced) return true;
   if (pace_.reach(seconds(simulation_.tick()))) state_stale_ = true;
-  if (pace_.paused() && !station_there_) return true;
+  if (pace_.paused() && !station_there_) {
+    pace_.let_go(now);
+    return true;
+  }
   const bool goes = pace_.may_go_on(now, seconds(scenario_.exchange_ticks()));
   if (!goes && state_stale_ && (pace_.paused() || now - state_told_ >= kStatePeriod)) tell_state(now);
   return goes;

@@ -58,8 +58,8 @@ class WatchNode {
   bool may_go_on();
   /// While may_go_on() returns false: time until it is worth asking again, unless something arrives first.
   std::chrono::milliseconds left() const;
-  /// Total wall time for which the run was held [s]; it does not count as run time.
-  double held_s() const { return pace_.held_s(); }
+  /// Total wall time for which the run was held until now [s]; it does not count as run time.
+  double held_s(Pace::Clock::time_point now) const { return pace_.held_s(now); }
 
  private:
   using Clock = Pace::Clock;
