@@ -67,6 +67,23 @@ TEST_F(AgentFile, ALargeFleetFliesInOneProcessIfTheUserDoesNotChoose) {
   EXPECT_THROW(planned(), InputError) << "there is no program for a fleet in one process";
   agent(std::string(programs::kAgent) + programs::kFleetSuffix);
   EXPECT_TRUE(planned().options.one_process);
+TEST_F(AgentFile, OptionsOfPlannersReachOnlyUavsWithPlanners) {
+  agent(programs::kAgent);
+  options_.clock = "realtime";
+  options_.planner = "ros,beta=orbit,gcs=orbit";
+  options_.keep_maps_s = 5.0;
+  options_.time_parts = true;
+  for (const ProgramSpec& program : flown()) {
+    for (const char* option : {"--maps-every", "--time-parts"}) {
+      EXPECT_EQ(std::ranges::count(program.argv, option), program.name == beta_ ? 1 : 0) << program.name << option;
+    }
+  }
+  for (const char* planner : {"ros", "exec:./mine", "ros,beta=exec:./mine"}) {
+    options_.planner = planner;
+    EXPECT_NE(refusal().find("--keep-maps: programs of your own"), std::string::npos) << planner << refusal();
+  }
+}
+
   EXPECT_NE(refusal().find("a fleet of 129 UAVs is too large for DDS"), std::string::npos) << refusal();
   options_.planner = "hover,u1=exec:./mine";
   EXPECT_THROW(planned(), InputError) << "this program needs DDS";

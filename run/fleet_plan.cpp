@@ -45,6 +45,13 @@ void choose_processes(FleetPlan& plan, Processes processes) {
   options.threads = threads_of(options.threads, plan.scenario.fleet.size());
 }
 
+/// @throws InputError for --keep-maps of a fleet in which nothing keeps maps
+void check_keep_maps(const FleetPlan& plan) {
+  const auto keeps_none = [](const UavPlanner& p) { return exec_command(p.spec) || p.spec == kFreeNodes; };
+  if (!plan.options.keep_maps_s || !std::ranges::all_of(plan.planners, keeps_none)) return;
+  throw InputError("--keep-maps: programs of your own fly all UAVs, and they keep no maps");
+}
+
 }  // namespace
 
 LoadOptions load_options(const RunOptions& options) {
@@ -74,6 +81,7 @@ FleetPlan plan_fleet(const RunOptions& options, const std::filesystem::path& bin
   plan.planners = planners.uavs;
   check_exec(plan);
   check_free_nodes(plan.planners, options.clock);
+  check_keep_maps(plan);
   plan.ground = ground_program(planners, fleets_agent(plan));
   if (options.network) read_network(*options.network).check_names(domain_names(plan.scenario));
   for (const std::string& uav : options.replay ? options.replay->only : std::vector<std::string>()) {

@@ -85,10 +85,12 @@ Arguments replay_arguments(const ReplayOf& replay) {
 Arguments role_arguments(const FleetPlan& plan, const std::string& program) {
   const auto& maps_s = plan.options.keep_maps_s;
   const std::string& planner = planner_of(plan, program).spec;
+  if (program == programs::kGroundAgent) return {"--role", "gcs", "--planner", planner};
   Arguments arguments = {"--uav", programs::member_name(program)};
-  if (maps_s && planner != kFreeNodes) append(arguments, {"--maps-every", shortest(*maps_s)});
-  if (plan.options.time_parts) append(arguments, {"--time-parts"});
-  if (program == programs::kGroundAgent) arguments = {"--role", "gcs"};
+  if (planner != kFreeNodes) {  // an agent without a planner refuses these
+    if (maps_s) append(arguments, {"--maps-every", shortest(*maps_s)});
+    if (plan.options.time_parts) append(arguments, {"--time-parts"});
+  }
   append(arguments, {"--planner", planner});
   return arguments;
 }

@@ -62,9 +62,11 @@ void check_maps_period(double period_s) {
 }
 
 /// @throws InputError for options that only the software of a UAV with a planner obeys.
-void check_planner_options(bool has_planner, bool keeps_maps, bool debugs) {
-  if (has_planner || (!keeps_maps && !debugs)) return;
-  throw InputError(std::string(keeps_maps ? "--maps-every" : "--pdb") +
+void check_planner_options(bool has_planner, bool keeps_maps, bool debugs, bool times_parts) {
+  if (has_planner || (!keeps_maps && !debugs && !times_parts)) return;
+  throw InputError(std::string(keeps_maps ? "--maps-every"
+                               : debugs   ? "--pdb"
+                                          : "--time-parts") +
                    ": this program flies no UAV with a planner (--role gcs, or --planner " + std::string(kFreeNodes) +
                    ")");
 }
@@ -181,7 +183,9 @@ std::variant<int, std::unique_ptr<bus::FleetMember>> AgentProgram::prepare(const
   std::unique_ptr<Planner> planner;
   std::vector<std::string> debug_names;
   const bool stands_in = role_ != "gcs" && planner_ == kFreeNodes;
-  check_planner_options(role_ != "gcs" && !stands_in, maps_every_s_.has_value(), pdb_from_s_.has_value());
+  check_planner_options(role_ != "gcs" && !stands_in, maps_every_s_.has_value(), pdb_from_s_.has_value(), times_parts_);
+  if (role_ == "gcs" && !uav_.empty())
+    throw InputError("--uav " + uav_ + ": a program at the ground station has no UAV");
   if (role_ == "gcs") {
     ground = make_ground_program(planner_, ground_config(*scenario));
   } else if (stands_in) {

@@ -117,14 +117,18 @@ TEST_F(BadInput, AProgramStartedByHandNamesAMissingFolder) {
 TEST_F(BadInput, AnAgentWithoutAPlannerRefusesOptionsOfPlanners) {
   const std::string scenario = write_small_scene(folder());
   for (const Arguments& role : {Arguments{"--role", "gcs", "--planner", "xxh"}, {"--planner", "ros"}}) {
-    for (const char* option : {"--maps-every", "--pdb"}) {
-      Arguments arguments = {program("uav_agent"), "--scenario", scenario, "--check", option, "1"};
+    for (const Arguments& option : {Arguments{"--maps-every", "1"}, {"--pdb", "1"}, {"--time-parts"}}) {
+      Arguments arguments = {program("uav_agent"), "--scenario", scenario, "--check"};
+      arguments.insert(arguments.end(), option.begin(), option.end());
       arguments.insert(arguments.end(), role.begin(), role.end());
-      ChildProcess& refused = start_program(role.back() + option, arguments);
-      EXPECT_EQ(refused.wait().code, 2) << role.back() << ' ' << option;
-      EXPECT_TRUE(refused.err().starts_with(std::string("uav_agent: ") + option)) << refused.err();
+      ChildProcess& refused = start_program(role.back() + option.front(), arguments);
+      EXPECT_EQ(refused.wait().code, 2) << role.back() << ' ' << option.front();
+      EXPECT_TRUE(refused.err().starts_with("uav_agent: " + option.front())) << refused.err();
     }
   }
+  ChildProcess& refused = start_program("both", {program("uav_agent"), "--scenario", scenario, "--check", "--role",
+                                                 "gcs", "--uav", "a", "--planner", "xxh"});
+  EXPECT_EQ(refused.wait().code, 2) << refused.err();
 }
 
 TEST_F(BadInput, APipeDeviceOrHugeFileIsRefusedAtOnce) {
