@@ -9,8 +9,8 @@ namespace skein::cli {
 
 void check_uavs_over_dds(std::size_t uavs) {
   if (uavs <= kMostUavsOverDds) return;
-  throw InputError("a fleet of " + std::to_string(uavs) + " UAVs is too large for DDS, where at most " +
-                   std::to_string(kMostUavsOverDds) + " can have a domain each; fly it in one process (--one-process)");
+  throw InputError("a fleet of " + std::to_string(uavs) + " UAVs is too large for DDS, over which at most " +
+                   std::to_string(kMostUavsOverDds) + " fly; fly it in one process (--one-process)");
 }
 
 DomainBlock::DomainBlock(std::optional<int> base, int size, std::string realm, int from) : realm_(std::move(realm)) {

@@ -42,7 +42,7 @@ inline constexpr int kExitInterrupted = 130;
 
 /// Lowest domain of a fleet. Domain 0 is ROS 2's default: there any node of the host would receive the ground truth.
 inline constexpr int kFirstDomain = 1;
-/// Highest base domain of a fleet; the port mapping of the RTPS standard ends at 232.
+/// Highest domain of a fleet. The ports of the RTPS standard's mapping end at domain 232.
 inline constexpr int kLastDomain = 200;
 
 /// Options that all programs understand.

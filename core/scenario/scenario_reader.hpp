@@ -18,7 +18,7 @@
 namespace skein {
 
 inline constexpr std::size_t kMostUavs = 1024;        ///< of a fleet, in one process
-inline constexpr std::size_t kMostUavsOverDds = 128;  ///< each has a DDS domain of its own, and those end near 230
+inline constexpr std::size_t kMostUavsOverDds = 128;  ///< chosen: below what domains and open files allow
 
 struct LoadOptions {
   std::filesystem::path assets_dir = {};         ///< folder that contains models/; empty: SKEIN_ASSETS, else none
