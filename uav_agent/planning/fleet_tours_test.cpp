@@ -6,27 +6,25 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/random_stream.hpp"
+
 namespace skein::agent {
 namespace {
 
 FleetTourProblem random_problem(std::size_t agents, std::size_t tasks, std::uint64_t seed) {
-  std::uint64_t random = seed * 7919 + 1;
-  const auto draw = [&random] {
-    random = random * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(random >> 11) * 0x1.0p-53;
-  };
+  RandomStream random(seed, "fleet tours", 0);
   std::vector<double> x, y;
   FleetTourProblem problem;
   problem.agents = agents;
   problem.costs = CostMatrix(agents + tasks);
   for (std::size_t i = 0; i < agents + tasks; ++i) {
-    x.push_back(draw());
-    y.push_back(draw());
+    x.push_back(random.uniform());
+    y.push_back(random.uniform());
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (std::size_t j = 0; j < x.size(); ++j) problem.costs(i, j) = std::hypot(x[i] - x[j], y[i] - y[j]);
   }
-  for (std::size_t i = 0; i < tasks; ++i) problem.service.push_back(0.1 * draw());
+  for (std::size_t i = 0; i < tasks; ++i) problem.service.push_back(0.1 * random.uniform());
   return problem;
 }
 

@@ -6,20 +6,18 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/random_stream.hpp"
+
 namespace skein::agent {
 namespace {
 
 /// Euclidean in a unit square; `wind` makes ways in +x dearer than back.
 CostMatrix random_costs(std::size_t nodes, std::uint64_t seed, double wind) {
-  std::uint64_t random = seed * 977 + 1;
-  const auto draw = [&random] {
-    random = random * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(random >> 11) * 0x1.0p-53;
-  };
+  RandomStream random(seed, "costs", 0);
   std::vector<double> x, y;
   for (std::size_t i = 0; i < nodes; ++i) {
-    x.push_back(draw());
-    y.push_back(draw());
+    x.push_back(random.uniform());
+    y.push_back(random.uniform());
   }
   CostMatrix costs(nodes);
   for (std::size_t i = 0; i < nodes; ++i) {

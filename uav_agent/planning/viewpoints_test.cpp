@@ -9,28 +9,18 @@
 #include <set>
 
 #include "core/math/euler.hpp"
+#include "core/math/random_stream.hpp"
 
 namespace skein::agent {
 namespace {
 
 using Id = VoxelGrid::Id;
 
-class Draw {
- public:
-  double operator()(double lo, double hi) {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return lo + (hi - lo) * static_cast<double>(state_ >> 11) * 0x1.0p-53;
-  }
-
- private:
-  std::uint64_t state_ = 7;
-};
-
 VoxelGrid scattered(double share) {
   VoxelGrid grid(Isometry3d::Identity(), {20, 20, 10}, 1.0);
-  Draw draw;
+  RandomStream random(7, "grid", 0);
   for (Id id = 0; id < grid.count(); ++id) {
-    if (draw(0.0, 1.0) < share) grid.raise(id, VoxelState::occupied);
+    if (random.uniform() < share) grid.raise(id, VoxelState::occupied);
   }
   return grid;
 }
@@ -65,10 +55,11 @@ TEST(Viewpoints, RingsAroundBoxesKeepTheStandoffAndGoDown) {
 
 TEST(Viewpoints, VisibilityAgreesWithMarchingAlongTheSegment) {
   const VoxelGrid grid = scattered(0.08);
-  Draw draw;
+  RandomStream random(7, "places", 0);
   int visible = 0, hidden = 0, differing = 0;
   for (int i = 0; i < 150; ++i) {
-    const Vector3d from(draw(0, 20), draw(0, 20), draw(0, 10)), to(draw(0, 20), draw(0, 20), draw(0, 10));
+    const Vector3d from(random.uniform(0, 20), random.uniform(0, 20), random.uniform(0, 10)),
+        to(random.uniform(0, 20), random.uniform(0, 20), random.uniform(0, 10));
     const bool seen = grid.sees(from, to);
     ++(seen ? visible : hidden);
     differing += seen != sees_by_marching(grid, from, to);
@@ -103,9 +94,10 @@ TEST(Viewpoints, RingsHaveTheirRadii) {
 
 TEST(Viewpoints, PlacesOfAClusterAreNearItsFirstAndInItsSight) {
   const VoxelGrid grid = scattered(0.1);
-  Draw draw;
+  RandomStream random(7, "places", 0);
   std::vector<Vector3d> places;
-  for (int i = 0; i < 120; ++i) places.emplace_back(draw(0, 20), draw(0, 20), draw(0, 10));
+  for (int i = 0; i < 120; ++i)
+    places.emplace_back(random.uniform(0, 20), random.uniform(0, 20), random.uniform(0, 10));
   const auto clusters = visibility_clusters(grid, places, 5.0);
   std::set<std::size_t> all;
   for (const auto& cluster : clusters) {
@@ -130,12 +122,13 @@ double shortest_by_force(const Vector3d& from_W, const std::vector<std::vector<V
 }
 
 TEST(Viewpoints, TheWayThroughOnePlaceOfEachStopIsTheShortest) {
-  Draw draw;
+  RandomStream random(7, "places", 0);
   const Vector3d from(0.0, 0.0, 0.0);
   for (std::size_t stops = 0; stops < 6; ++stops) {
     std::vector<std::vector<Vector3d>> options(stops);
     for (auto& places : options) {
-      for (int i = 0; i < 4; ++i) places.emplace_back(draw(0, 20), draw(0, 20), draw(0, 10));
+      for (int i = 0; i < 4; ++i)
+        places.emplace_back(random.uniform(0, 20), random.uniform(0, 20), random.uniform(0, 10));
     }
     const auto choice = shortest_through(from, options);
     ASSERT_EQ(choice.size(), stops);
