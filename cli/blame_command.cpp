@@ -63,6 +63,7 @@ HuntPlan plan_of(const BlameOptions& options, const Subject& subject) {
   hunt.run.force = true;
   hunt.run.record = "messages";
   hunt.run.dds = options.dds.value_or(hunt.run.dds);
+  hunt.run.one_process = false;  // a large fleet of a capsule; plan_fleet() chooses again
   hunt.jobs = 1;
   const Processes processes = options.dds ? Processes::as_given : Processes::one_if_possible;
   HuntPlan plan{hunt, plan_fleet(hunt.run, program_dir(), processes), subject.entries, {}};

@@ -32,6 +32,7 @@ RunOptions options_flown(const RunOptions& given) {
   if (!is_capsule(given)) return given;
   RunOptions options = load_fault_test(given.scenario, given.assets, given.agent, given.one_process).plan.options;
   options.dds = given.dds;
+  options.one_process = given.one_process;  // choose_processes() decides for a fleet that is too large for DDS
   options.attainable = given.attainable;
   options.report = given.report;
   options.command = given.command;

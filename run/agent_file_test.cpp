@@ -56,17 +56,17 @@ class AgentFile : public ::testing::Test {
 
 // 129 UAVs are too many for DDS.
 TEST_F(AgentFile, ALargeFleetFliesInOneProcessIfTheUserDoesNotChoose) {
-  std::string scenario = "desired_mm_per_pixel: 2.0\nscene: {family: towers}\nfleet:\n";
-  for (int i = 0; i < 129; ++i) {
-    scenario += "  - {name: u" + std::to_string(i) + ", vehicle: {name: x, role: explorer, lidar: {}}, start: [" +
-                std::to_string(5 * (i % 16)) + ", " + std::to_string(5 * (i / 16)) + "]}\n";
-  }
-  write_text(programs_.scenario(), scenario);
+  write_text(programs_.scenario(), scenario_of(129));
   options_.planner = "hover";
   const auto planned = [&] { return plan_fleet(options_, program_dir(), Processes::one_if_possible); };
   EXPECT_THROW(planned(), InputError) << "there is no program for a fleet in one process";
   agent(std::string(programs::kAgent) + programs::kFleetSuffix);
   EXPECT_TRUE(planned().options.one_process);
+  EXPECT_NE(refusal().find("a fleet of 129 UAVs is too large for DDS"), std::string::npos) << refusal();
+  options_.planner = "hover,u1=exec:./mine";
+  EXPECT_THROW(planned(), InputError) << "this program needs DDS";
+}
+
 TEST_F(AgentFile, OptionsOfPlannersReachOnlyUavsWithPlanners) {
   agent(programs::kAgent);
   options_.clock = "realtime";
@@ -82,11 +82,6 @@ TEST_F(AgentFile, OptionsOfPlannersReachOnlyUavsWithPlanners) {
     options_.planner = planner;
     EXPECT_NE(refusal().find("--keep-maps: programs of your own"), std::string::npos) << planner << refusal();
   }
-}
-
-  EXPECT_NE(refusal().find("a fleet of 129 UAVs is too large for DDS"), std::string::npos) << refusal();
-  options_.planner = "hover,u1=exec:./mine";
-  EXPECT_THROW(planned(), InputError) << "this program needs DDS";
 }
 
 TEST_F(AgentFile, EachPlannerFliesInTheProgramThatItNames) {

@@ -33,16 +33,22 @@ std::filesystem::path fleets_agent(const FleetPlan& plan) {
 
 void choose_processes(FleetPlan& plan, Processes processes) {
   RunOptions& options = plan.options;
-  const bool either = processes == Processes::one_if_possible;
+  const std::size_t uavs = plan.scenario.fleet.size();
+  const bool is_too_large = processes == Processes::one_if_large && uavs > kMostUavsOverDds && !options.one_process;
+  const bool either = processes == Processes::one_if_possible || is_too_large;
   const auto reason = either || options.one_process ? needs_processes(plan) : std::nullopt;
+  if (is_too_large && reason) {
+    throw InputError("a fleet of " + std::to_string(uavs) + " UAVs must fly in one process, because over DDS at most " +
+                     std::to_string(kMostUavsOverDds) + " can; but " + *reason);
+  }
   if (either) {
     options.one_process = !reason;
   } else if (reason) {
     throw InputError(*reason + "; leave out --one-process");
   }
-  if (!options.one_process) return check_uavs_over_dds(plan.scenario.fleet.size());
+  if (!options.one_process) return check_uavs_over_dds(uavs);
   // Read now, because SKEIN_THREADS may be wrong, and later the results folder has been emptied already.
-  options.threads = threads_of(options.threads, plan.scenario.fleet.size());
+  options.threads = threads_of(options.threads, uavs);
 }
 
 /// @throws InputError for --keep-maps of a fleet in which nothing keeps maps

@@ -73,6 +73,7 @@ LoadOptions load_options(const RunOptions& options);
 enum class Processes {
   as_given,         ///< RunOptions::one_process
   one_if_possible,  ///< only what the fleet needs (needs_processes())
+  one_if_large,     ///< as given, but a fleet that is too large for DDS flies in one process
 };
 
 /// Loads the scenario and resolves all options into a plan. Its `options.one_process` says how the fleet flies.

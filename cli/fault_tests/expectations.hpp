@@ -29,6 +29,11 @@ constexpr auto radio_counters() {
                     "duplicated", "corrupted", "sent_bytes",     "delivered_bytes"};
 }
 
+/// Whether a fleet in one process cannot fly this way.
+constexpr bool needs_dds(Repeat repeat) {
+  return repeat == Repeat::cyclonedds || repeat == Repeat::fastdds || repeat == Repeat::mixed;
+}
+
 /// A file's `expect`, with what a test expects where its file does not say.
 struct Expectations {
   std::string status = "completed";

@@ -1,5 +1,7 @@
 #include "cli/fault_tests/fault_test.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 
 #include "cli/fault_tests/columns.hpp"
@@ -7,8 +9,10 @@
 #include "core/config/config_files.hpp"
 #include "core/config/config_reader.hpp"
 #include "core/scenario/conditions.hpp"
+#include "core/scenario/drawn_worlds.hpp"
 #include "core/scenario/scenario_reader.hpp"
 #include "core/text/suggestion.hpp"
+#include "run/drawn_world.hpp"
 #include "signals/judge.hpp"
 
 namespace skein::cli {
@@ -85,19 +89,23 @@ RunOptions run_options(const RunPart& part, const fs::path& file, const std::opt
 void check_run(const RunOptions& options, ConfigErrors& errors) {
   const char* key = "run.scenario";
   try {
-    LoadOptions load;
-    load.needs_scene_files = false;
-    Scenario scenario = load_scenario(options.scenario, load);
+    RunOptions load;
+    load.scenario = options.scenario;
+    if (is_drawn_world(options.scenario)) {  // generated only once: each other seed or size is another world
+      load.scene_seed = options.scene_seed;
+      load.uavs = options.uavs;
+    }
+    Scenario scenario = scenario_flown(load, false);
     // One key after the other, so that a mistake is reported at the key that makes it.
-    const auto load_with = [&](const char* next, auto LoadOptions::*part, const auto& value) {
-      if (!value) return;
+    const auto load_with = [&](const char* next, auto RunOptions::*part) {
+      if (!(options.*part)) return;
       key = next;
-      load.*part = value;
-      scenario = load_scenario(options.scenario, load);
+      load.*part = options.*part;
+      scenario = scenario_flown(load, false);
     };
-    load_with("run.scene_seed", &LoadOptions::scene_seed, options.scene_seed);
-    load_with("run.duration_s", &LoadOptions::duration_s, options.duration_s);
-    load_with("run.uavs", &LoadOptions::uavs, options.uavs);
+    load_with("run.scene_seed", &RunOptions::scene_seed);
+    load_with("run.duration_s", &RunOptions::duration_s);
+    load_with("run.uavs", &RunOptions::uavs);
     key = "run.planner";
     parse_planners(options.planner, scenario.uav_names());
     key = "run.conditions";
@@ -160,6 +168,26 @@ void check_mark(const CapsuleMark& mark, const properties::PropertySet& set, Con
                "there is no property '" + mark.property + "' in this file; " + suggestion(mark.property, known));
 }
 
+/// Refuses what needs DDS in a test whose fleet is too large for it. @param one_process  the user chose one process, so
+/// `run.dds` has no effect.
+void check_without_dds(const FaultTest& test, bool one_process, ConfigErrors& errors) {
+  const std::size_t uavs = test.plan.scenario.fleet.size();
+  if (uavs <= kMostUavsOverDds) return;
+  const std::string reason = fmt::format(
+      "over DDS, which carries at most {} UAVs; this fleet has {}, and flies in one "
+      "process",
+      kMostUavsOverDds, uavs);
+  const ConfigNode* run = test.document.root.find("run");
+  errors.check(one_process || run == nullptr || run->find("dds") == nullptr, "run.dds", "asks for a flight " + reason);
+  for (std::size_t i = 0; i < test.expect.same_digest.size(); ++i) {
+    const Repeat repeat = test.expect.same_digest[i];
+    errors.check(!needs_dds(repeat), "expect.same_digest[" + std::to_string(i) + "]",
+                 "'" + std::string(name_of(repeat)) + "' asks for a flight " + reason);
+  }
+  errors.check(!test.capsule || test.capsule->property != kSameDigest, "capsule.property",
+               std::string("'") + kSameDigest + "' compares with a flight " + reason);
+}
+
 FaultTest read_fault_test(const fs::path& file, const ConfigDocument& document, const std::optional<fs::path>& assets,
                           const std::optional<fs::path>& agent, bool one_process) {
   const fs::path path = fs::absolute(file);
@@ -174,8 +202,11 @@ FaultTest read_fault_test(const fs::path& file, const ConfigDocument& document, 
   RunOptions options = run_options(content.run, path, assets, agent);
   options.one_process = one_process;
   check_run(options, errors);
-  FaultTest test{file.stem(), file, plan_fleet(options, program_dir()), std::move(content.expect), {}, document};
+  FaultTest test{
+      file.stem(), file,    plan_fleet(options, program_dir(), Processes::one_if_large), std::move(content.expect),
+      {},          document};
   test.capsule = std::move(content.capsule);
+  check_without_dds(test, one_process, errors);
   read_properties(content.property_entries, test, errors);
   if (test.capsule) check_mark(*test.capsule, test.property_set, errors);
   errors.throw_if_any();

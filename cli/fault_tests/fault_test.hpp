@@ -60,7 +60,8 @@ struct FaultTest {
 bool is_fault_test(const ConfigNode& root);
 
 /// Reads one fault test.
-/// @param assets  folder for scenarios that read files. @param agent, one_process  as for `skein run`.
+/// @param assets  folder for scenarios that read files. @param agent, one_process  as for `skein run`; but a fleet that
+///   is too large for DDS always flies in one process, so its file must not ask for DDS.
 /// @throws InputError with file, line, key and what would be right, also for errors in faults, scenario or planner.
 FaultTest load_fault_test(const std::filesystem::path& file, const std::optional<std::filesystem::path>& assets = {},
                           const std::optional<std::filesystem::path>& agent = {}, bool one_process = false);

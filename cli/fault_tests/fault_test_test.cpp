@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cli/fault_tests/conversion.hpp"
+#include "cli/fault_tests/flights.hpp"
 #include "host/testing/fake_programs.hpp"
 
 namespace skein::cli {
@@ -51,6 +52,57 @@ TEST_F(FaultTestFile, NamesTheRunsAndTheirFaults) {
   EXPECT_EQ(test.expect.same_digest, (std::vector<Repeat>{Repeat::again, Repeat::chaos}));
   EXPECT_FALSE(test.needs_fault_free());
   EXPECT_TRUE(load(kBlackout + std::string("properties: {score_share: ready}")).needs_fault_free());
+}
+
+// Over DDS, at most 128 UAVs can fly.
+TEST_F(FaultTestFile, AFleetThatIsTooLargeForDdsFliesInOneProcess) {
+  const std::string faults = "faults: [{at_s: 10, blackout: u1}]\n", capsule = "capsule: {property: completes}\n";
+  const auto run = [](const std::string& more) {
+    return "run: {scenario: ./small.yaml, planner: hover, duration_s: 20" + more + "}\n";
+  };
+  write_text(programs_.scenario(), scenario_of(129));
+  programs_.script(std::string(programs::kAgent) + programs::kFleetSuffix, "");
+  for (const std::string& text : {faults, faults + capsule}) {
+    const FaultTest test = load(run("") + text);
+    EXPECT_TRUE(test.plan.options.one_process);
+    EXPECT_EQ(test.plan.scenario.fleet.size(), 129U);
+  }
+  EXPECT_FALSE(load(run(", uavs: 128") + faults).plan.options.one_process);
+  refused(run(", dds: fastdds") + faults,
+          "mine.yaml:1: run.dds: asks for a flight over DDS, which carries at most 128");
+  refused(run("") + faults + "expect: {same_digest: [again, mixed]}",
+          "mine.yaml:3: expect.same_digest[1]: 'mixed' asks for a flight over DDS, which carries at most 128");
+  refused(run("") + faults + "capsule: {property: same_digest}",
+          "mine.yaml:3:11: capsule.property: 'same_digest' compares");
+  refused("run: {scenario: ./small.yaml, planner: 'hover,u1=exec:./mine', duration_s: 20}\n" + faults,
+          "a fleet of 129 UAVs must fly in one process, because over DDS at most 128 can; but --planner u1=exec:");
+}
+
+// The command line asks for more repetitions than `expect.same_digest`.
+TEST_F(FaultTestFile, AFleetThatIsTooLargeForDdsIsNotRepeatedOverDds) {
+  write_text(programs_.scenario(), scenario_of(129));
+  programs_.script(std::string(programs::kAgent) + programs::kFleetSuffix, "");
+  const std::vector<FaultTest> tests = {
+      load("run: {scenario: ./small.yaml, planner: hover, duration_s: 20}\nfaults: [{at_s: 1, blackout: u1}]")};
+  TestOptions options;
+  options.repeat = {"again"};
+  EXPECT_EQ(plan_fault_flights(tests, options).tests[0].repeats.size(), 1U);
+  options.long_tests = true;
+  EXPECT_EQ(plan_fault_flights(tests, options).tests[0].repeats.size(), 3U) << "again, chaos, one_process";
+  options.repeat = {"again", "fastdds"};
+  EXPECT_THROW(plan_fault_flights(tests, options), InputError);
+}
+
+// A capsule of a hunt in a generated world names the world, for which there is no file.
+TEST_F(FaultTestFile, TheScenarioMayBeAGeneratedWorld) {
+  const char* const given = std::getenv("XDG_CACHE_HOME");
+  const std::optional<std::string> before = given != nullptr ? std::optional<std::string>(given) : std::nullopt;
+  ::setenv("XDG_CACHE_HOME", (programs_.dir() / "cache").c_str(), 1);
+  write_script(programs_.dir() / "sim_server", kDrawWorld);
+  const FaultTest test = load("run: {scenario: wild, scene_seed: 3}\nfaults: [{at_s: 10, blackout: alpha}]");
+  EXPECT_EQ(test.plan.scenario.fleet.size(), 2U);
+  EXPECT_EQ(read_text(programs_.dir() / "drawn.log"), "wild_3\n") << "generated once";
+  before ? ::setenv("XDG_CACHE_HOME", before->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
 }
 
 TEST_F(FaultTestFile, FaultsMayStandInAnotherFile) {

@@ -1,20 +1,27 @@
 #include "cli/fault_tests/flights.hpp"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
 
+#include "core/scenario/scenario_reader.hpp"
 #include "core/types.hpp"
 
 namespace skein::cli {
 namespace {
 
+/// Whether the command line names this repetition.
+bool is_named(const TestOptions& options, Repeat repeat) {
+  return std::ranges::find(options.repeat, name_of(repeat)) != options.repeat.end();
+}
+
 /// The repetitions that the command line asks for.
 std::vector<Repeat> asked_repeats(const TestOptions& options) {
   std::vector<Repeat> repeats;
   for (const auto& entry : enum_names(Repeat{})) {
-    const bool named = std::ranges::find(options.repeat, entry.name) != options.repeat.end();
-    if (named || options.long_tests) repeats.push_back(entry.value);
+    if (options.long_tests || is_named(options, entry.value)) repeats.push_back(entry.value);
   }
   return repeats;
 }
@@ -40,6 +47,20 @@ FaultFlight repeated(FaultFlight flight, Repeat repeat, std::size_t number) {
   return flight;
 }
 
+/// Whether this repetition is over DDS, and the fleet is too large for it.
+bool is_impossible(const FaultTest& test, Repeat repeat) {
+  return needs_dds(repeat) && test.plan.scenario.fleet.size() > kMostUavsOverDds;
+}
+
+/// @throws InputError if this repetition is impossible.
+void check_repeat(const FaultTest& test, Repeat repeat) {
+  if (!is_impossible(test, repeat)) return;
+  throw InputError(
+      fmt::format("{}: cannot be repeated with '{}', because over DDS at most {} UAVs fly, and this fleet "
+                  "has {}; it flies in one process only",
+                  test.file.string(), name_of(repeat), kMostUavsOverDds, test.plan.scenario.fleet.size()));
+}
+
 class Planning {
  public:
   explicit Planning(const TestOptions& options) : options_(options), asked_(asked_repeats(options)) {}
@@ -53,6 +74,7 @@ class Planning {
     for (const Repeat repeat : repeats_of(test, index)) {
       const std::string how = name_of(repeat);
       if (repeats.contains(how)) continue;
+      check_repeat(test, repeat);
       repeats[how] = add_flight(repeated({test.name + "-" + how, test.plan.options}, repeat, index + 1),
                                 "the repetition '" + how + "' of " + test.file.string());
     }
@@ -83,11 +105,13 @@ class Planning {
   }
 
   std::vector<Repeat> repeats_of(const FaultTest& test, std::size_t index) const {
-    std::vector<Repeat> all = test.expect.same_digest;
-    if (options_.rotate && !asked_.empty()) {
-      all.push_back(asked_[index % asked_.size()]);
+    std::vector<Repeat> all = test.expect.same_digest, asked = asked_;
+    // --long means all that are possible.
+    std::erase_if(asked, [&](Repeat repeat) { return is_impossible(test, repeat) && !is_named(options_, repeat); });
+    if (options_.rotate && !asked.empty()) {
+      all.push_back(asked[index % asked.size()]);
     } else {
-      all.insert(all.end(), asked_.begin(), asked_.end());
+      all.insert(all.end(), asked.begin(), asked.end());
     }
     return all;
   }

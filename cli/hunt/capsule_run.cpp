@@ -9,6 +9,7 @@
 #include "cli/run_command.hpp"
 #include "core/config/config_node.hpp"
 #include "core/text/text.hpp"
+#include "host/domain_block.hpp"
 #include "host/preflight.hpp"
 #include "process/json_fields.hpp"
 #include "process/program.hpp"
@@ -130,6 +131,8 @@ int run_capsule(const RunOptions& options, const Console& console) {
   check_options(options);
   FaultTest test = load_fault_test(options.scenario, options.assets, options.agent, options.one_process);
   RunOptions& run = test.plan.options;
+  const bool over_dds = options.domain || options.dds != RunOptions{}.dds;
+  if (over_dds && !options.one_process) check_uavs_over_dds(test.plan.scenario.fleet.size());
   run.dds = options.dds;
   run.out = options.out;
   run.usual_out = fs::path("runs") / test.name;

@@ -41,6 +41,16 @@ fleet:
   - {name: beta, vehicle: {name: p, role: photographer}, start: [5, 0]}
 )";
 
+/// A scenario of this many UAVs, u0, u1, and so on.
+inline std::string scenario_of(int uavs) {
+  std::string text = "desired_mm_per_pixel: 2.0\nscene: {family: towers}\nfleet:\n";
+  for (int i = 0; i < uavs; ++i) {
+    text += "  - {name: u" + std::to_string(i) + ", vehicle: {name: x, role: explorer, lidar: {}}, start: [" +
+            std::to_string(5 * (i % 16)) + ", " + std::to_string(5 * (i / 16)) + "]}\n";
+  }
+  return text;
+}
+
 /// A script that replaces `sim_server --draw-world W --scene-seed S --export-scene FOLDER`: it writes a world of two
 /// UAVs, and a line in a log.
 inline constexpr const char* kDrawWorld = R"(
