@@ -31,9 +31,9 @@ void end_children() {
 }
 
 /// Stops this process because its program has stopped. When the program is continued or killed, or when the launcher
-/// dies, SIGCONT comes to this process just afterwards. If it came before this process stops, it would be lost, and this
-/// process would stop for ever. So a child stops this process, and continues it if one of these things has happened
-/// until then.
+/// dies, SIGCONT comes to this process just afterwards. If it came before this process stops, it would be lost, and
+/// this process would stop for ever. So a child stops this process, and continues it if one of these things has
+/// happened until then.
 void stop_with(pid_t program, pid_t launcher) {
   const pid_t minder = ::getpid(), child = ::fork();
   if (child < 0) ::kill(minder, SIGSTOP);

@@ -45,9 +45,9 @@ std::optional<HostLock> HostLock::try_take(const std::string& name) {
     if (errno == EADDRINUSE) return std::nullopt;
     throw std::system_error(errno, std::generic_category(), "lock " + name);
   }
-  // From here on the lock is held. The socket listens only so that holder() can connect and get the process id. Until it
-  // listens, or when its queue is full of connections that nothing has accepted, holder() gets none, which only leaves
-  // the id out of a message.
+  // From here on the lock is held. The socket listens only so that holder() can connect and get the process id. Until
+  // it listens, or when its queue is full of connections that nothing has accepted, holder() gets none, which only
+  // leaves the id out of a message.
   if (::listen(lock.fd_, SOMAXCONN) != 0) throw std::system_error(errno, std::generic_category(), "lock " + name);
   return lock;
 }
