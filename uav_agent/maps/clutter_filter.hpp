@@ -10,6 +10,10 @@
 // Frame W.   Units: SI.   Threads: one.   Deterministic.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <limits>
 #include <vector>
 
 #include "uav_agent/maps/block_table.hpp"
@@ -28,15 +32,31 @@ class ClutterFilter {
  private:
   /// Formula: a quarter of the period of the LiDAR's servo, which is one pass over a place.
   static constexpr double kConfirmedWithinS = 2.0;
-  static constexpr double kNever = -1e9;  ///< numeric: before any scan
-  struct Returns {
-    double since_s = kNever;  ///< time of the first one
-    int count = 0;            ///< within kConfirmedWithinS since then
-  };
-  bool confirmed(double scan_s, double range_m, bool in_doubt, const WorldMap::Cube& cube);
+  /// The number of the scan of a cube's first return, in the upper bits, and the number of returns since then. Memory:
+  /// 32 bits suffice for 19 days of scans at 10 Hz, and a count never exceeds the 8 returns that confirm a cube.
+  using Returns = std::uint32_t;
+  static constexpr int kCountBits = 8;                           ///< memory, as above
+  static constexpr Returns kNever = 0;                           ///< no return yet
+  static constexpr std::array<int, 3> kGroupBits = {2, 2, 1};    ///< memory: a group is flat, as the ground is
+  using Group = std::array<Returns, 32>;                         ///< memory: 4 x 4 x 2 cubes, x first: two cache lines
+  static constexpr int kNone = std::numeric_limits<int>::max();  ///< numeric
+  static inline const WorldMap::Cube kNoCube = WorldMap::Cube::Constant(kNone);
 
-  BlockTable<Returns> returns_;  ///< by smallest cube that is not occupied, or in doubt
-  std::size_t cubes_ = 0;        ///< in returns_
+  void begin_scan(double scan_s);
+  Returns& returns_in(const WorldMap::Cube& cube);
+  /// Notes a return in a cube below the ground. @returns whether to remove it, because the cube is not structure: the
+  /// map ignores it, however often beams end in it.
+  bool underground(const WorldMap::Cube& cube, const WorldMap& map);
+  bool confirmed(double range_m, bool in_doubt, const WorldMap::Cube& cube);
+
+  BlockTable<Group> groups_;               ///< returns in cubes that are not occupied, or in doubt
+  WorldMap::Cube group_at_ = kNoCube;      ///< of the last group asked for; valid during a scan
+  Group* group_ = nullptr;                 ///< that group
+  BlockTable<std::uint64_t> underground_;  ///< cubes below the ground with any return, one bit each
+  std::size_t cubes_ = 0;                  ///< with any return
+  std::uint32_t scan_ = 0;                 ///< number of the present scan, from 1 on
+  std::uint32_t first_recent_ = 1;         ///< number of the first scan of the last kConfirmedWithinS
+  std::deque<double> recent_s_;            ///< the times of these scans
   std::vector<WorldMap::Cube> new_;
 };
 

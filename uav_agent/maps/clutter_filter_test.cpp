@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "core/math/random_stream.hpp"
 
@@ -77,6 +79,47 @@ TEST(ClutterFilter, ReturnsThatAreTooFarApartInTimeDoNotConfirmEachOther) {
     drops.scan({p_W});
     EXPECT_EQ(drops.at(p_W), wait_s < 2.0 ? Space::occupied : Space::unknown) << wait_s;
   }
+}
+
+/// The rule of the filter with a plain map of the returns, for a LiDAR at 0 and a map without structure.
+struct PlainCount {
+  bool keeps(double scan_s, const Eigen::Vector3f& hit_W, const WorldMap& map) {
+    auto& [since_s, count] = returns.try_emplace(grid_key(map.cube_of(hit_W.cast<double>())), -1e9, 0).first->second;
+    if (scan_s - since_s > 2.0) {
+      since_s = scan_s;
+      count = 0;
+    }
+    const double range_m = hit_W.cast<double>().norm();
+    if (++count < (range_m >= 6.0 ? 2 : range_m >= 3.0 ? 3 : range_m >= 1.5 ? 5 : 8)) return false;
+    since_s = scan_s;
+    count = 0;
+    return true;
+  }
+
+  std::map<std::uint64_t, std::pair<double, int>> returns;
+};
+
+TEST(ClutterFilter, CountsTheReturnsInEachCube) {
+  constexpr double kGroundM = 0.3;
+  RandomStream random(4, "clutter", 0);
+  const WorldMap map(WorldMap::Config{.ground_m = kGroundM});
+  ClutterFilter filter;
+  PlainCount plain;
+  std::size_t kept = 0;
+  for (int scan = 0; scan < 400; ++scan) {
+    const double scan_s = kScanS * scan + (scan > 200 ? 1.75 : 0.0);
+    std::vector<Eigen::Vector3f> hits_W, expected_W;
+    for (int i = 0; i < 300; ++i) {
+      const Eigen::Vector3f hit_W = drawn_W(random, 8.0);
+      const bool keeps = hit_W.z() >= 0.0F && plain.keeps(scan_s, hit_W, map);
+      hits_W.push_back(hit_W);
+      if (keeps) expected_W.push_back(hit_W);
+    }
+    filter.keep_confirmed(scan_s, Vector3d::Zero(), map, hits_W);
+    ASSERT_EQ(hits_W, expected_W) << scan;
+    kept += hits_W.size();
+  }
+  EXPECT_GT(kept, 1000U);
 }
 
 // As many drops as with the preset `harsh`, most of them close to a LiDAR that stands still. No beam passes the cubes.

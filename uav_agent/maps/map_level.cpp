@@ -127,19 +127,51 @@ void MapLevel::change(Block& block, std::size_t place, Space space, Teller telle
     }
   };
   settle(block, place);
-  if ((block.space[place] == Space::occupied) != (space == Space::occupied)) {
-    structure_changes_.push_back(cell_at(block, place));
-  }
+  const bool was_occupied = block.space[place] == Space::occupied, is_occupied = space == Space::occupied;
   count(block.space[place], -1);
   count(space, 1);
   block.space[place] = space;
+  if (was_occupied != is_occupied) {
+    structure_changes_.push_back(cell_at(block, place));
+    is_occupied ? note_occupied(block, cell_at(block, place)) : note_not_occupied(block);
+  }
   block.teller[place] = teller;
   changes_.push_back(cell_at(block, place));
+}
+
+/// Call it when a cell of the block became occupied.
+void MapLevel::note_occupied(Block& block, const Cell& cell) {
+  if (block.occupied == 1) {
+    block.occupied_number = static_cast<std::uint32_t>(occupied_blocks_.size());
+    occupied_blocks_.push_back({block.at, cell, cell});
+    return;
+  }
+  OccupiedBlock& noted = occupied_blocks_[block.occupied_number];
+  noted.lowest = noted.lowest.cwiseMin(cell);
+  noted.highest = noted.highest.cwiseMax(cell);
+}
+
+/// Call it when a cell of the block is no longer occupied, which is rare.
+void MapLevel::note_not_occupied(const Block& block) {
+  OccupiedBlock& noted = occupied_blocks_[block.occupied_number];
+  if (block.occupied == 0) {
+    noted = occupied_blocks_.back();
+    opened_block(noted.block).occupied_number = block.occupied_number;
+    return occupied_blocks_.pop_back();
+  }
+  noted.lowest = block.at * kBlock + Cell::Constant(kBlock - 1);
+  noted.highest = block.at * kBlock;
+  for (std::size_t place = 0; place < kCells; ++place) {
+    if (block.space[place] != Space::occupied) continue;
+    noted.lowest = noted.lowest.cwiseMin(cell_at(block, place));
+    noted.highest = noted.highest.cwiseMax(cell_at(block, place));
+  }
 }
 
 /// Ends a doubt, and stops judging the cell's evidence.
 void MapLevel::settle(Block& block, std::size_t place) {
   if (doubted(block, place)) --doubts_;
+  block.maybe_doubted[place] = false;
   if (block.evidence) (*block.evidence)[place].never_remind();
 }
 
@@ -167,6 +199,7 @@ void MapLevel::doubt(const Cell& cell) {
   Block& block = opened_block(block_of(cell));
   settle(block, place_of(cell));
   evidence_of(block)[place_of(cell)] = {};
+  block.maybe_doubted[place_of(cell)] = true;
   ++doubts_;
 }
 
@@ -323,7 +356,7 @@ MapLevel::Known MapLevel::known(const Cell& cell) const {
 MapLevel::Structure MapLevel::structure_in(const Cell& block) const {
   const Slot* const slot = slots_.find(grid_key(block));
   if (slot == nullptr || slot->number < kFirst) return {};
-  return {&blocks_[slot->number - kFirst], doubts_ > 0};
+  return Structure(&blocks_[slot->number - kFirst]);
 }
 
 void MapLevel::read(const Cell& block, std::array<Known, kCells>& known) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -79,6 +80,13 @@ class MapLevel {
   /// State at this level alone.
   Known known(const Cell& cell) const;
   class Structure;
+  /// A block with occupied cells.
+  struct OccupiedBlock {
+    Cell block = Cell::Zero();
+    Cell lowest = Cell::Zero(), highest = Cell::Zero();  ///< of the smallest box around all its occupied cells
+  };
+  /// All of them, in no particular order. Valid until the map changes.
+  const std::vector<OccupiedBlock>& occupied_blocks() const { return occupied_blocks_; }
   /// For many questions about cells of one block. Valid until the map changes.
   Structure structure_in(const Cell& block) const;
   /// The same for all cells of a block, x first.
@@ -100,7 +108,8 @@ class MapLevel {
   std::size_t occupied_cells() const { return occupied_; }
   std::size_t blocks() const { return blocks_.size() - spare_.size(); }
   std::size_t bytes() const {
-    return blocks_.capacity() * sizeof(Block) + evidences_ * sizeof(Evidence) + slots_.bytes();
+    return blocks_.capacity() * sizeof(Block) + evidences_ * sizeof(Evidence) + slots_.bytes() +
+           occupied_blocks_.capacity() * sizeof(OccupiedBlock);
   }
   std::uint64_t windows() const { return windows_; }
 
@@ -121,9 +130,12 @@ class MapLevel {
   struct Block {
     Cell at = Cell::Zero();  ///< index of the block, see block_of()
     int free = 0, occupied = 0;
+    std::uint32_t occupied_number = 0;        ///< index in occupied_blocks_, if any cell is occupied
     std::unique_ptr<Evidence> evidence = {};  ///< nullptr until a beam passes or a cell is doubted
     std::array<Space, kCells> space = {};
     std::array<Teller, kCells> teller = {};
+    /// Contains all doubted cells, so that questions about other cells need not read the evidence.
+    std::bitset<kCells> maybe_doubted = {};
   };
   /// The place of a stored block, or the note that all its cells are free.
   struct Slot {
@@ -145,8 +157,10 @@ class MapLevel {
   BeamEvidence all_evidence(const Cell& cell) const;
   void change(Block& block, std::size_t place, Space space, Teller teller);
   static bool doubted(const Block& block, std::size_t place) {
-    return block.space[place] == Space::occupied && block.evidence && (*block.evidence)[place].may_remind();
+    return block.maybe_doubted[place] && block.space[place] == Space::occupied && (*block.evidence)[place].may_remind();
   }
+  void note_occupied(Block& block, const Cell& cell);
+  void note_not_occupied(const Block& block);
   void settle(Block& block, std::size_t place);
   /// The block's evidence; created if there is none.
   Evidence& evidence_of(Block& block);
@@ -166,25 +180,29 @@ class MapLevel {
   std::vector<Cell> changes_, structure_changes_;
   std::size_t free_ = 0, occupied_ = 0, doubts_ = 0, evidences_ = 0;
   std::uint64_t windows_ = 0;
+  std::vector<OccupiedBlock> occupied_blocks_;
 };
 
 /// Tells which cells of a block are structure: occupied, and not in doubt.
 class MapLevel::Structure {
  public:
   Structure() = default;
+  /// Whether a cell is occupied, even if it is in doubt.   @param cell  in the block
+  bool occupied(const Cell& cell) const {
+    return block_ != nullptr && block_->space[place_of(cell)] == Space::occupied;
+  }
   /// @param cell  in the block
   bool at(const Cell& cell) const {
     if (block_ == nullptr) return false;
     const std::size_t place = place_of(cell);
-    return block_->space[place] == Space::occupied && !(any_doubts_ && doubted(*block_, place));
+    return block_->space[place] == Space::occupied && !doubted(*block_, place);
   }
 
  private:
   friend class MapLevel;
-  Structure(const Block* block, bool any_doubts) : block_(block), any_doubts_(any_doubts) {}
+  explicit Structure(const Block* block) : block_(block) {}
 
   const Block* block_ = nullptr;  ///< nullptr: none of its cells is occupied
-  bool any_doubts_ = false;
 };
 
 }  // namespace skein::agent

@@ -88,7 +88,13 @@ class WorldMap {
   MapLevel::Known known(const Eigen::Vector3i& cube) const;
   Eigen::Vector3i cube_of(const Vector3d& p_W) const { return levels_.front()->cell_of(p_W); }
   /// The smallest cubes of a chunk that are occupied and not in doubt. Valid until the map changes.
-  MapLevel::Structure structure_in(const Cube& chunk) const { return levels_.front()->structure_in(chunk); }
+  MapLevel::Structure structure_in(const Cube& chunk) const {
+    const std::uint64_t* const chunks = structured_.find(grid_key(shifted(chunk, kRegionBits)));
+    const bool any = chunks != nullptr && (*chunks >> place_in_region(chunk) & 1) != 0;
+    return any ? levels_.front()->structure_in(chunk) : MapLevel::Structure();
+  }
+  /// All chunks with occupied cubes, in no particular order. Valid until the map changes.
+  const std::vector<MapLevel::OccupiedBlock>& occupied_chunks() const { return levels_.front()->occupied_blocks(); }
   /// Centre of a smallest cube.
   Vector3d middle_W(const Cube& cube) const { return (cube.cast<double>() + Vector3d::Constant(0.5)) * config_.cell_m; }
   /// Distance between the surfaces of the smallest cube that contains p and of the nearest occupied cube [m]: at most
@@ -198,7 +204,8 @@ class WorldMap {
   BlockTable<RegionNote> in_regions_;
   std::vector<Eigen::Vector3i> regions_;
   /// The chunks in which cubes ever were occupied: by region, one bit for each chunk, in the order of chunk_of(). And
-  /// the box around all such cubes, in cubes. For clear_way_m(), which asks about many places far from any structure.
+  /// the box around all such cubes, in cubes. For clear_way_m() and structure_in(), which are
+  /// asked about many places far from any structure.
   BlockTable<std::uint64_t> structured_;
   Cube structure_low_ = Cube::Zero(), structure_high_ = Cube::Zero();
   std::uint64_t changes_ = 0, scans_ = 0;

@@ -36,10 +36,9 @@ void WorldMapper::insert(const BeamScan& scan) {
   if (map_.config().criterion.no_return_p > 0.0) {
     // Beyond this, beams are not evidence at any level, so it does not matter what they meet there.
     const double enough_m = map_.config().to_m.back() + 2.0 * map_.config().cell_m * (1 << (map_.levels() - 1));
-    clear_way = [this, enough_m](const Vector3d& from_W, const Vector3d& direction_W, double reach_m) {
-      const double asked_m = std::min(reach_m, enough_m);
-      const double clear_m = map_.clear_way_m(from_W, direction_W, asked_m);
-      return clear_m < asked_m ? clear_m : reach_m;
+    clear_ways_.begin(map_, enough_m);
+    clear_way = [this](const Vector3d& from_W, const Vector3d& direction_W, double reach_m) {
+      return clear_ways_.clear_way_m(from_W, direction_W, reach_m);
     };
   }
   const ScanBundler::Bundles& bundles = bundler_.bundle(scan, repeated, near_free, clear_way);

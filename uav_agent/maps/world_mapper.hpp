@@ -2,6 +2,7 @@
 // Frame: W world.   Units: metres.   Threads: one.   Deterministic.
 #pragma once
 
+#include "uav_agent/maps/clear_ways.hpp"
 #include "uav_agent/maps/clutter_filter.hpp"
 #include "uav_agent/maps/scan_bundles.hpp"
 #include "uav_agent/maps/world_map.hpp"
@@ -41,6 +42,7 @@ class WorldMapper {
   WorldMap map_;
   ScanBundler bundler_;
   RepeatedScans repeated_;
+  ClearWays clear_ways_;
   ClutterFilter clutter_;
   std::vector<Eigen::Vector3f> hits_W_;  ///< hits of the present scan without clutter; a member to reuse its memory
   bool started_ = false;
