@@ -50,10 +50,10 @@ struct Surroundings {
 constexpr const char* kOtherTime = "-25920000";
 
 constexpr std::size_t kMissions = 2;  ///< one without faults, one with a restart
-constexpr double kUsualMission_s = 40.0;
+constexpr double kUsualCheck_s = 40.0;
 constexpr double kRestart_s = 3.0;  ///< how long the program is gone; it ends after a third of the mission
 /// A restart must begin after the start, and end before the mission does.
-constexpr double kLeastMission_s = 6.0;
+constexpr double kLeastCheck_s = 6.0;
 
 /// The library that shifts the clock: beside the programs, or where it is installed.
 fs::path other_clock(const fs::path& bin_dir) {
@@ -145,8 +145,8 @@ class PlannerCheck {
     const FleetPlan plan = plan_fleet(base_, program_dir(), Processes::one_if_possible);
     base_.one_process = plan.options.one_process;
     duration_s_ = plan.scenario.duration_s;
-    if (duration_s_ < kLeastMission_s) {
-      throw InputError("--duration " + shortest(duration_s_) + ": must be at least " + shortest(kLeastMission_s) +
+    if (duration_s_ < kLeastCheck_s) {
+      throw InputError("--duration " + shortest(duration_s_) + ": must be at least " + shortest(kLeastCheck_s) +
                        " s, since the second mission has a restart of " + shortest(kRestart_s) + " s");
     }
     first_uav_ = plan.scenario.fleet.front().name;
@@ -280,7 +280,7 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
                                          "of the machine, and name the first difference");
   const CLI::Validator seed(check_seed, ""), seconds(check_seconds, "");
   RunOptions& run = check.run;
-  run.duration_s = kUsualMission_s;
+  run.duration_s = kUsualCheck_s;
   run.seed = 1;
   command->add_option("PLANNER", run.planner, "As --planner for `skein run`")->required();
   command->add_option("--scenario", run.scenario, "A name under config/scenarios/ or a YAML file")
@@ -292,7 +292,7 @@ void add_check_planner(CLI::App& app, CheckPlannerOptions& check) {
       ->check(CLI::Validator(check_positive, "POSITIVE"));
   command
       ->add_option("--duration", run.duration_s,
-                   fmt::format("Mission time [s], at least {:g} (default: {:g})", kLeastMission_s, kUsualMission_s))
+                   fmt::format("Mission time [s], at least {:g} (default: {:g})", kLeastCheck_s, kUsualCheck_s))
       ->check(seconds);
   command->add_option("--seed", run.seed, "As for `skein run`")->check(seed)->capture_default_str();
   CLI::Option* out = command->add_option("--out", check.out, "Folder for the flights (default: Skein deletes them)");
