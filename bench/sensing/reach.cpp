@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -97,7 +98,7 @@ class ReachFlight {
 
   const Scenario scenario_;
   const double tube_m_;
-  std::vector<agent::WorldMapper> mappers_;
+  std::deque<agent::WorldMapper> mappers_;
   std::vector<Reach> reaches_;
   std::vector<std::vector<double>> ahead_m_;
   double hovering_s_ = 0.0;
