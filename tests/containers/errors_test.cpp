@@ -30,7 +30,7 @@ TEST_F(ComposeErrors, NameARemedy) {
                  arguments("patrol", "60", {"--subnet", "10.99.0.0/26"}));
   expect_refusal("--debug jurong: the image 'skein-agent' has no gdb; skein-agent-debug of docker/Dockerfile has it",
                  arguments("patrol", "60", {"--debug", "jurong=gdb"}));
-  expect_refusal("--image jurong=IMAGE names an image that has it", arguments("patrol,jurong=exec:./mine"));
+  expect_refusal("name an image that has this one with --image jurong=IMAGE", arguments("patrol,jurong=exec:./mine"));
 }
 
 TEST_F(ComposeErrors, CtrlCEndsTheRunInGoodOrder) {

@@ -51,7 +51,7 @@ TEST_F(Attach, GdbInspectsAFlyingProgramWhichThenFliesOn) {
                             "break skein::agent::PatrolPlanner::plan\ncontinue\nprint in.state.p_WB\ndetach\nquit\n");
   EXPECT_EQ(gdb.wait().code, 0) << gdb.out() << gdb.err();
   expect_part(gdb.out(), "$1 = (");
-  expect_part(gdb.err(), "the fleet waits for changi up to 60 s");
+  expect_part(gdb.err(), "while changi is stopped, the fleet waits up to 60 s");
   expect_part(gdb.err(), "`break YourPlanner::plan`), then `continue`");
   end(fleet);
 }
