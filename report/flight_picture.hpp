@@ -40,8 +40,8 @@ std::array<Vector3d, 8> corners_of(const Vector3d& center, const Vector3d& size,
 FlightPicture shape_of(const results::RunRecord& run);
 
 /// Reads a whole picture from a results folder, without causes of losses. The picture is empty if result.json is
-/// missing or damaged. If another file is missing, the picture lacks its content; from a damaged table, it has the rows before the
-/// damage.
+/// missing or damaged. If another file is missing, the picture lacks its content; from a damaged table, it has the rows
+/// before the damage.
 FlightPicture read_picture(const std::filesystem::path& dir);
 
 /// Below this score a point is not detected.

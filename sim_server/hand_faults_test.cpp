@@ -177,7 +177,7 @@ TEST_F(FaultsByHand, TheNumberOfFaultsByHandIsLimited) {
   std::size_t taken = 0;
   for (; taken < 1000 && hand.obey(begin(StuckGimbal{"changi"}, 0.05), next).empty(); next += period_) ++taken;
   EXPECT_EQ(taken, 200U);
-  expect_refused(hand, begin(StuckGimbal{"changi"}, 0.05), next, "there may be no more");
+  expect_refused(hand, begin(StuckGimbal{"changi"}, 0.05), next, "at most 200 faults by hand");
 }
 
 }  // namespace

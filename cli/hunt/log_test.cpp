@@ -109,7 +109,7 @@ TEST_F(HuntLogFile, ADamagedLineIsRefusedAndNamed) {
       std::string damaged = text_;
       write_text(file_, damaged.replace(begin, length, instead));
       const std::string said = refusal();
-      EXPECT_NE(said.find(file_.string() + ":" + std::to_string(line) + ": damaged"), std::string::npos) << said;
+      EXPECT_NE(said.find(file_.string() + ":" + std::to_string(line) + ": is damaged"), std::string::npos) << said;
       EXPECT_EQ(read_text(file_), damaged) << "the log stays as it is";
     }
   }

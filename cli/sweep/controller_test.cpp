@@ -143,8 +143,8 @@ TEST(SweepController, TheStatusTellsHowManyChecksDiffer) {
   folder.write_check(token, {1, "sound 2", "b?", "sound 1", "b"});
   EXPECT_EQ(controller.findings().back(),
             nodes +
-                "2 flights flown again elsewhere, 1 with another digest: which node is wrong shows when the study "
-                "goes on");
+                "2 flights flown again elsewhere, 1 with another digest: continue the study to find out which node is "
+                "wrong");
 }
 
 // In a sweep of fewer than 100 flights, one flight is repeated on another node as a check. The controller excludes the

@@ -311,7 +311,8 @@ TEST_F(HuntCommands, BlameReportsTheNumbersOfTheSameFlightsFlownIndividually) {
       << said.out;
   EXPECT_NEAR(std::stod(as_it_was[1]), score, 0.0005);
   const std::map<std::string, Blamed> all = blamed(said.out);
-  const std::string same = said.out.substr(std::min(said.out.size(), said.out.find("the run stays the same, bit for bit")));
+  const std::string same =
+      said.out.substr(std::min(said.out.size(), said.out.find("the run stays the same, bit for bit")));
   std::size_t effective_faults = 0;
   for (std::size_t i = 0; i < faults.size(); ++i) {
     SkeinRun& less = fly("without-" + std::to_string(i), i);
