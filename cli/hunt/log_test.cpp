@@ -115,7 +115,7 @@ TEST_F(HuntLogFile, ADamagedLineIsRefusedAndNamed) {
   }
   write_text(file_, text_);
   write_text(dir_ / "hunt.json", "{\"seed\": 1,");
-  EXPECT_NE(refusal().find("hunt.json: damaged"), std::string::npos) << refusal();
+  EXPECT_NE(refusal().find("hunt.json: is damaged"), std::string::npos) << refusal();
   EXPECT_EQ(HuntLog(dir_, kHuntSettings, true).outcomes().size(), 0U) << "the caller asked for a new log";
 }
 

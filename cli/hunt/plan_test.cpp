@@ -183,7 +183,7 @@ TEST(CapsuleRuns, ReproduceTheRunOnlyIfTheDigestIsTheOneOfTheFind) {
     EXPECT_NE(text.find("not known"), std::string::npos) << text;
   }
   unknown.property = kCompletes;
-  EXPECT_NE(comparison_text(unknown, "").find("this one is without a digest"), std::string::npos);
+  EXPECT_NE(comparison_text(unknown, "").find("this run has no digest"), std::string::npos);
 }
 
 }  // namespace
