@@ -42,7 +42,7 @@ TEST_F(Capsule, ReportsTheScoreOfTheFindAndNotOfTheRunWithoutFaults) {
   // The launcher announces the second run before the messages of that run, and its end after them.
   const std::string err = run.err();
   const std::size_t first = err.find("first run, the find itself, with its faults"),
-                    second = err.find("second run, without the faults"), over = err.find("the second run is over");
+                    second = err.find("second run, without the faults"), over = err.find("the second run has ended");
   EXPECT_LT(first, second) << err;
   EXPECT_LT(second, over) << err;
   EXPECT_EQ(err.find("score", over), std::string::npos) << err;
