@@ -169,7 +169,7 @@ class Proposals {
                              trial.run.planner.find(':') < trial.run.planner.find('=');
     const std::string name = trial.run.planner.substr(0, trial.run.planner.find(':'));
     const bool names_a_file = name == "exec" || name == "waypoints" || name == "py";  // it does not fly without
-    if (one_for_all && !names_a_file) trial.run.planner = trial.run.planner.substr(0, trial.run.planner.find(':'));
+    if (one_for_all && !names_a_file) trial.run.planner = name;
     propose("parameters", trial);
   }
 
