@@ -110,6 +110,13 @@ class MinderTest : public ::testing::Test {
     return WIFEXITED(status) ? "code " + std::to_string(WEXITSTATUS(status))
                              : "signal " + std::to_string(WTERMSIG(status));
   }
+  /// Kills the launcher. Its minder must then kill all programs, and end.
+  void expect_that_all_end_with(pid_t launcher) {
+    EXPECT_EQ(::kill(launcher, SIGKILL), 0);
+    EXPECT_EQ(::waitpid(launcher, nullptr, 0), launcher);
+    EXPECT_EQ(next_change(), "code " + std::to_string(128 + SIGKILL));
+    EXPECT_TRUE(all_ended());
+  }
 
  private:
   pid_t fork_minder(const std::string& script) const {
@@ -218,10 +225,7 @@ TEST_F(MinderTest, KillsAllWhenTheLauncherHasDied) {
   const pid_t launcher = start_below_launcher("( (sleep 1000 & echo started; wait) & wait) & read line; exit 5");
   EXPECT_EQ(heard(), "started");
   EXPECT_TRUE(minder_waits());
-  EXPECT_EQ(::kill(launcher, SIGKILL), 0);
-  EXPECT_EQ(::waitpid(launcher, nullptr, 0), launcher);
-  EXPECT_EQ(next_change(), "code " + std::to_string(128 + SIGKILL));
-  EXPECT_TRUE(all_ended());
+  expect_that_all_end_with(launcher);
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
@@ -230,10 +234,7 @@ TEST_F(MinderTest, KillsAllWhenTheLauncherHasDiedAlsoWhileTheProgramIsStopped) {
   const pid_t launcher = start_below_launcher("echo started; kill -STOP $$; exit 5");
   EXPECT_EQ(heard(), "started");
   EXPECT_TRUE(eventually([&] { return has_stopped(minder()); }, kUntilNoticed));
-  EXPECT_EQ(::kill(launcher, SIGKILL), 0);
-  EXPECT_EQ(::waitpid(launcher, nullptr, 0), launcher);
-  EXPECT_EQ(next_change(), "code " + std::to_string(128 + SIGKILL));
-  EXPECT_TRUE(all_ended());
+  expect_that_all_end_with(launcher);
   ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 

@@ -23,6 +23,11 @@ Situation any_situation(RandomStream& random) {
           random.uniform(10.0, 120.0)};
 }
 
+void for_any_situation(const char* name, const auto& check) {
+  RandomStream random(1, name, 0);
+  for (int i = 0; i < 1000; ++i) check(any_situation(random));
+}
+
 TEST(DeliveryRule, MoreValueHazardOrWaitNeverSpeaksAgainstADelivery) {
   RandomStream random(1, "monotone", 0);
   int pays = 0;
@@ -43,34 +48,28 @@ TEST(DeliveryRule, MoreValueHazardOrWaitNeverSpeaksAgainstADelivery) {
 }
 
 TEST(DeliveryRule, WithoutAHazardNoDeliveryPays) {
-  RandomStream random(1, "no_hazard", 0);
-  for (int i = 0; i < 1000; ++i) {
-    Situation situation = any_situation(random);
+  for_any_situation("no_hazard", [](Situation situation) {
     situation.hazard_per_h = 0.0;
     EXPECT_FALSE(situation.pays());
     situation.stake.gain_per_s = 0.0;
     EXPECT_FALSE(situation.pays()) << "nothing is lost by waiting";
-  }
+  });
 }
 
 TEST(DeliveryRule, WithAHugeHazardEachDeliveryOfSomethingPays) {
-  RandomStream random(1, "huge_hazard", 0);
-  for (int i = 0; i < 1000; ++i) {
-    Situation situation = any_situation(random);
+  for_any_situation("huge_hazard", [](Situation situation) {
     situation.hazard_per_h = 1e9;
     EXPECT_TRUE(situation.pays());
     situation.stake.value = 0.0;
     EXPECT_FALSE(situation.pays());
-  }
+  });
 }
 
 TEST(DeliveryRule, AUavWithoutWorkDeliversWhateverItHas) {
-  RandomStream random(1, "idle", 0);
-  for (int i = 0; i < 1000; ++i) {
-    Situation situation = any_situation(random);
+  for_any_situation("idle", [](Situation situation) {
     situation.stake.gain_per_s = 0.0;
     EXPECT_TRUE(situation.pays());
-  }
+  });
 }
 
 // The comment of the header derives this interval.
